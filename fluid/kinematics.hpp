@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace sluice::fluid {
+
+// Motion of one body over a step, as the solver needs it. World frame, SI. In two dimensions only
+// x, y and rotation about z are read.
+struct Kinematics {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // of the centre of mass, end of the step
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // end of the step
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               // mean over the step
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();       // mean over the step
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();           // end of the step
+  Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();   // end of the step
+};
+
+// Force [N] and moment about the centre of mass [N m]; per metre of depth in two dimensions.
+struct Wrench {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+};
+
+}  // namespace sluice::fluid

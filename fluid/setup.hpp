@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace sluice::fluid {
+
+struct Liquid {
+  double density = 1000;   // at zero pressure, rho0 [kg/m^3]
+  double viscosity = 0;    // dynamic, mu [Pa s]; 0: not computed
+  double sound_speed = 0;  // c0 [m/s]
+};
+
+// Numerical parameters; README.md, "Parameters", has the measurements behind the defaults.
+struct Formulation {
+  double smoothing = 1.5;              // h/dx
+  double density_diffusion = 0.1;      // delta
+  double artificial_viscosity = 0.02;  // alpha
+  double moment_floor = 0.2;           // smallest eigenvalue of C over the lattice's
+  double courant = 0.4;                // dt (c0 + v_max) / h
+};
+
+// Fluid particles at the start, all of one mass.
+struct FluidParticles {
+  std::vector<Eigen::Vector3d> position;  // [m]
+  std::vector<Eigen::Vector3d> velocity;  // [m/s]
+  std::vector<double> pressure;           // [Pa]; sets the density by the equation of state, CF (65)
+  double mass = 0;                        // [kg], per metre of depth in 2D
+};
+
+// Boundary particles of one body, or of the walls, in the body's frame. A particle of a thin plate belongs to
+// one face and acts only on fluid in front of it: outward of the plane through face_point with normal face_normal.
+struct Boundary {
+  std::vector<Eigen::Vector3d> position;  // [m]
+  std::vector<double> volume;             // [m^3], [m^2] in 2D
+  struct Face {
+    Eigen::Vector3d point, normal;
+  };
+  std::vector<Face> faces;         // empty: an ordinary body, seen from everywhere
+  std::vector<std::int32_t> face;  // per particle, index into faces; empty when faces is
+};
+
+struct Setup {
+  int dimension = 2;
+  double spacing = 0;  // dx [m]
+  Eigen::Vector3d gravity{0, 0, 0};
+  Liquid liquid;
+  Formulation formulation;
+  FluidParticles fluid;
+  Boundary walls;                // at rest, world frame
+  bool measure_wall_force = false;  // the walls' wrench costs a sweep over wall particles near the fluid
+  std::vector<Boundary> bodies;
+  int threads = 1;
+};
+
+}  // namespace sluice::fluid

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fluid/kinematics.hpp"
+#include "fluid/setup.hpp"
+
+namespace sluice::fluid {
+
+// Copy of the state in the order of FluidParticles, whatever the solver's own order is.
+struct Snapshot {
+  std::vector<double> position;  // [n, 3]
+  std::vector<double> velocity;  // [n, 3]
+  std::vector<double> density;   // [n]
+  std::vector<double> pressure;  // [n]
+};
+
+// Sums over the fluid particles; per metre of depth in 2D.
+struct Diagnostics {
+  double kinetic = 0;        // [J]
+  double potential = 0;      // - sum m g.x [J]
+  double elastic = 0;        // work stored in compression [J]
+  double boundary_work = 0;  // done on the fluid by moving boundaries since the start [J]
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();          // [kg m/s]
+  Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  // about the origin [kg m^2/s]
+  double max_speed = 0;        // [m/s]
+  double max_compression = 0;  // max |rho/rho0 - 1|
+};
+
+// One liquid, walls and moving bodies, stepped explicitly. Holds no global state.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+
+  // Sets the bodies' poses at time 0 and computes the first forces. Call once before step.
+  virtual void start(std::span<const Kinematics> bodies) = 0;
+
+  // Advances by dt [s]. bodies[b] is the motion of setup.bodies[b] over this step. Afterwards wrenches()
+  // holds the fluid's action on each body at the end of the step. Precondition: dt <= largest_step().
+  virtual void step(double dt, std::span<const Kinematics> bodies) = 0;
+
+  [[nodiscard]] virtual std::span<const Wrench> wrenches() const = 0;
+  // The fluid's action on the walls, moment about the origin; zero unless setup.measure_wall_force.
+  [[nodiscard]] virtual Wrench wall_wrench() const = 0;
+
+  // Courant limit [s] for speeds up to `max_speed` [m/s].
+  [[nodiscard]] virtual double largest_step(double max_speed) const = 0;
+  [[nodiscard]] virtual Snapshot snapshot() const = 0;
+  [[nodiscard]] virtual Diagnostics diagnostics() const = 0;
+};
+
+// Throws std::invalid_argument naming the value when the setup is not usable.
+std::unique_ptr<Solver> make_solver(const Setup& setup);
+
+}  // namespace sluice::fluid
