@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+
+#include "protocol/scene_check.hpp"
+
+namespace sluice::protocol {
+namespace {
+
+using Vector = google::protobuf::RepeatedField<double>;
+
+void fill_zeros(Vector& vector, int count) {
+  if (vector.empty()) vector.Resize(count, 0.0);
+}
+
+double norm(const Vector& vector) {
+  double sum = 0;
+  for (const double x : vector) sum += x * x;
+  return std::sqrt(sum);
+}
+
+double dot(const Vector& a, const Vector& b) {
+  double sum = 0;
+  for (int i = 0; i < std::min(a.size(), b.size()); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+// The largest of up.x over the region's points, for a unit vector `up`.
+double top(const FluidRegion& region, const Vector& up) {
+  double highest = -std::numeric_limits<double>::infinity();
+  switch (region.shape_case()) {
+    case FluidRegion::kBox: {
+      double sum = 0;
+      for (int a = 0; a < std::min(region.box().max_size(), up.size()); ++a)
+        sum += std::max(up[a] * region.box().min(a), up[a] * region.box().max(a));
+      return sum;
+    }
+    case FluidRegion::kBall:
+      return dot(region.ball().center(), up) + region.ball().radius();
+    case FluidRegion::kPolygon:
+      for (const auto& v : region.polygon().vertex())
+        highest = std::max(highest, up[0] * v.x() + up[1] * v.y());
+      return highest;
+    default:
+      return highest;
+  }
+}
+
+// Height [m] of the highest liquid above the domain's lowest corner, against gravity.
+double liquid_height(const Scene& scene, double g) {
+  Vector up = scene.gravity();
+  for (double& x : up) x /= -g;
+  double floor = 0;
+  for (int a = 0; a < up.size(); ++a)
+    floor += std::min(up[a] * scene.domain().min(a), up[a] * scene.domain().max(a));
+  double highest = floor;
+  for (const auto& region : scene.fluid()) highest = std::max(highest, top(region, up));
+  return highest - floor;
+}
+
+double expected_speed(const Scene& scene) {
+  const double g = norm(scene.gravity());
+  double speed = g > 0 ? std::sqrt(2 * g * liquid_height(scene, g)) : 0;
+  for (const auto& region : scene.fluid()) speed = std::max(speed, norm(region.velocity()));
+  return speed;
+}
+
+void fill_liquid(Scene& scene) {
+  constexpr double kMachInverse = 10;  // density then stays within about 1 %
+  Liquid& liquid = *scene.mutable_liquid();
+  if (!liquid.has_density()) liquid.set_density(1000);
+  if (!liquid.has_viscosity()) liquid.set_viscosity(0);
+  if (!liquid.has_max_speed()) {
+    const double speed = expected_speed(scene);
+    liquid.set_max_speed(speed > 0 ? speed : liquid.sound_speed() / kMachInverse);
+  }
+  if (!liquid.has_sound_speed()) liquid.set_sound_speed(kMachInverse * liquid.max_speed());
+}
+
+void fill_body(Body& body, int dimension) {
+  fill_zeros(*body.mutable_velocity(), dimension);
+  fill_zeros(*body.mutable_angular_velocity(), dimension == 2 ? 1 : 3);
+  if (body.orientation().empty()) {
+    for (const double q : {1.0, 0.0, 0.0, 0.0}) body.add_orientation(q);
+  }
+}
+
+void fill_formulation(Formulation& formulation) {
+  if (!formulation.has_smoothing()) formulation.set_smoothing(1.5);
+  if (!formulation.has_density_diffusion()) formulation.set_density_diffusion(0.1);
+  if (!formulation.has_artificial_viscosity()) formulation.set_artificial_viscosity(0.02);
+  if (!formulation.has_moment_floor()) formulation.set_moment_floor(0.2);
+  if (!formulation.has_courant()) formulation.set_courant(0.4);
+}
+
+}  // namespace
+
+Scene with_defaults(const Scene& scene) {
+  constexpr double kFrames = 100;
+  Scene full = scene;
+  const int dimension = static_cast<int>(scene.dimension());
+  if (full.gravity().empty()) {
+    fill_zeros(*full.mutable_gravity(), dimension);
+    full.set_gravity(dimension - 1, -9.81);
+  }
+  fill_zeros(*full.mutable_domain()->mutable_min(), dimension);
+  for (auto& region : *full.mutable_fluid()) {
+    fill_zeros(*region.mutable_velocity(), dimension);
+    if (!region.has_hydrostatic()) region.set_hydrostatic(true);
+  }
+  fill_liquid(full);
+  for (auto& body : *full.mutable_body()) fill_body(body, dimension);
+  if (!full.output().has_rate()) full.mutable_output()->set_rate(kFrames / full.duration());
+  fill_formulation(*full.mutable_formulation());
+  return full;
+}
+
+}  // namespace sluice::protocol
