@@ -1,9 +1,148 @@
 #include "protocol/scene_check.hpp"
 
-namespace sluice::protocol {
+#include <fmt/format.h>
 
-std::vector<Problem> check_fields(const Scene&) {
-  return {};
+#include <algorithm>
+#include <set>
+
+#include "protocol/field_check.hpp"
+#include "protocol/framing.hpp"
+
+namespace sluice::protocol {
+namespace {
+
+constexpr std::size_t kLongestSceneName = 200;
+constexpr double kLongestRun = 1e9;   // [s]
+constexpr double kHighestRate = 1e6;  // [1/s]
+constexpr double kMostFrames = 1e7;
+constexpr int kMostRegions = 10'000;
+
+bool printable(const std::string& text) {
+  return std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; });
+}
+
+void check_run(const Scene& scene, FieldCheck& check) {
+  if (scene.name().size() > kLongestSceneName || !printable(scene.name()))
+    check.report("name", fmt::format("needs at most {} characters and none of control", kLongestSceneName));
+  check.positive(scene.spacing(), "spacing", "m", "give the distance between particles");
+  check.positive(scene.duration(), "duration", "s", "give the time to simulate");
+  if (scene.duration() > kLongestRun)
+    check.report("duration", fmt::format("{} s is beyond {} s", scene.duration(), kLongestRun));
+  check.optional_vector(scene.gravity(), "gravity", "the acceleration of gravity");
+}
+
+void check_liquid(const Liquid& liquid, FieldCheck& check) {
+  if (liquid.has_density())
+    check.positive(liquid.density(), "liquid.density", "kg/m^3", "leave it out for water, 1000");
+  if (liquid.has_viscosity()) check.not_negative(liquid.viscosity(), "liquid.viscosity", "Pa s");
+  if (liquid.has_sound_speed())
+    check.positive(liquid.sound_speed(), "liquid.sound_speed", "m/s", "leave it out for ten times max_speed");
+  if (liquid.has_max_speed())
+    check.positive(liquid.max_speed(), "liquid.max_speed", "m/s",
+                   "give the largest speed expected in the flow");
+  if (liquid.has_sound_speed() && liquid.has_max_speed() && liquid.sound_speed() < liquid.max_speed())
+    check.report("liquid.sound_speed",
+                 fmt::format("{} m/s is below max_speed, {} m/s; ten times max_speed keeps "
+                             "the density within 1 %",
+                             liquid.sound_speed(), liquid.max_speed()));
+}
+
+void check_open_sides(const Domain& domain, FieldCheck& check) {
+  std::set<int> seen;
+  for (int i = 0; i < domain.open_size(); ++i) {
+    const Side side = domain.open(i);
+    const std::string field = fmt::format("domain.open[{}]", i);
+    if (!Side_IsValid(side) || side == SIDE_UNSPECIFIED)
+      check.report(field, fmt::format("{} is not a side; give X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN or Z_MAX",
+                                      static_cast<int>(side)));
+    else if (check.dimension() == 2 && side >= Z_MIN)
+      check.report(field, fmt::format("{} does not exist in two dimensions; remove it", Side_Name(side)));
+    else if (!seen.insert(side).second)
+      check.report(field, fmt::format("{} is given twice; remove one", Side_Name(side)));
+  }
+}
+
+void check_domain(const Scene& scene, FieldCheck& check) {
+  const Domain& domain = scene.domain();
+  check.optional_vector(domain.min(), "domain.min", "the tank's lower corner");
+  check_open_sides(domain, check);
+  if (!check.vector(domain.max(), "domain.max", "the tank's upper corner")) return;
+  for (int a = 0; a < domain.max_size(); ++a) {
+    const double low = a < domain.min_size() ? domain.min(a) : 0;
+    if (domain.max(a) - low < scene.spacing() || domain.max(a) <= low)
+      check.report(fmt::format("domain.max[{}]", a),
+                   fmt::format("{} m is not a spacing above the lower corner at {} m; give a larger tank",
+                               domain.max(a), low));
+  }
+}
+
+void check_output(const Scene& scene, FieldCheck& check) {
+  if (!scene.output().has_rate()) return;
+  const double rate = scene.output().rate();
+  check.positive(rate, "output.rate", "frames per second", "leave it out for 100 frames over the run");
+  if (rate > kHighestRate || rate * scene.duration() > kMostFrames)
+    check.report("output.rate",
+                 fmt::format("{} frames per second over {} s; at most {} per second and {} in all", rate,
+                             scene.duration(), kHighestRate, kMostFrames));
+}
+
+void check_formulation(const Formulation& formulation, FieldCheck& check) {
+  if (formulation.has_smoothing()) check.within(formulation.smoothing(), 1, 4, "formulation.smoothing");
+  if (formulation.has_density_diffusion())
+    check.within(formulation.density_diffusion(), 0, 1, "formulation.density_diffusion");
+  if (formulation.has_artificial_viscosity())
+    check.within(formulation.artificial_viscosity(), 0, 10, "formulation.artificial_viscosity");
+  if (formulation.has_moment_floor())
+    check.within(formulation.moment_floor(), 0.01, 1, "formulation.moment_floor");
+  if (formulation.has_courant()) check.within(formulation.courant(), 0.001, 1, "formulation.courant");
+}
+
+void check_regions(const Scene& scene, FieldCheck& check) {
+  if (scene.fluid().empty())
+    check.report("fluid",
+                 "is missing; give at least one region, e.g. fluid { box { min: [0, 0] max: [1, 0.5] } }");
+  if (!check.count(scene.fluid_size(), kMostRegions, "fluid")) return;
+  for (int i = 0; i < scene.fluid_size(); ++i)
+    check_fluid(scene.fluid(i), fmt::format("fluid[{}]", i), check);
+}
+
+// Of scenes that are right in every field.
+void check_speed(const Scene& scene, FieldCheck& check) {
+  if (with_defaults(scene).liquid().max_speed() <= 0)
+    check.report(
+        "liquid.max_speed",
+        "follows neither from gravity nor from an initial speed; give the largest speed expected [m/s]");
+}
+
+void check_size(const Scene& scene, FieldCheck& check) {
+  const std::size_t most = Limits{}.header_bytes / 2;
+  if (scene.ByteSizeLong() > most)
+    check.report(
+        "", fmt::format("the scene takes {} bytes as a message, at most {} are sent; use fewer vertices or "
+                        "keyframes",
+                        scene.ByteSizeLong(), most));
+}
+
+}  // namespace
+
+std::vector<Problem> check_fields(const Scene& scene) {
+  FieldCheck check(static_cast<int>(scene.dimension()));
+  check_numbers(scene, "", check);
+  check_size(scene, check);
+  check_run(scene, check);
+  check_liquid(scene.liquid(), check);
+  check_output(scene, check);
+  check_formulation(scene.formulation(), check);
+  if (scene.dimension() == 2 || scene.dimension() == 3) {
+    check_domain(scene, check);
+    check_regions(scene, check);
+    check_bodies(scene, check);
+  } else {
+    check.report("dimension", fmt::format("{} is neither 2 nor 3; give one of them", scene.dimension()));
+  }
+  if (check.problems().empty()) check_counts(scene, check);
+  if (check.problems().empty()) check_speed(scene, check);
+  return check.problems();
 }
 
 }  // namespace sluice::protocol

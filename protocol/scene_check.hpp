@@ -12,6 +12,7 @@ namespace sluice::protocol {
 std::vector<Problem> check_fields(const Scene& scene);
 
 // The scene with every default filled in (gravity, liquid, domain.min, output.rate, formulation ...).
+// Precondition: check_fields found nothing.
 Scene with_defaults(const Scene& scene);
 
 }  // namespace sluice::protocol

@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/field_check.hpp"
 #include "protocol/scene_check.hpp"
 
 namespace sluice::protocol {
 namespace {
-
-using Vector = google::protobuf::RepeatedField<double>;
 
 void fill_zeros(Vector& vector, int count) {
   if (vector.empty()) vector.Resize(count, 0.0);

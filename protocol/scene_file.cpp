@@ -1,5 +1,6 @@
 #include "protocol/scene_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -29,6 +30,14 @@ std::string read_text(const std::filesystem::path& path) {
   if (text.size() > kLargestFile)
     refuse(path, fmt::format("is larger than {} MiB, which no scene needs", kLargestFile >> 20));
   return text;
+}
+
+// Those without a position first: they concern the whole scene or the command line.
+std::vector<Problem> in_reading_order(std::vector<Problem> problems) {
+  std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
+    return std::pair(a.where.line, a.where.column) < std::pair(b.where.line, b.where.column);
+  });
+  return problems;
 }
 
 std::string join_lines(const std::vector<Problem>& problems) {
@@ -73,7 +82,7 @@ SceneFile SceneFile::load(const std::filesystem::path& path, const std::vector<s
       parsed.problems.push_back(std::move(problem));
     }
   }
-  if (!parsed.problems.empty()) throw SceneError(std::move(parsed.problems));
+  if (!parsed.problems.empty()) throw SceneError(in_reading_order(std::move(parsed.problems)));
   return result;
 }
 
