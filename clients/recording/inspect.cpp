@@ -1,0 +1,164 @@
+#include "clients/recording/inspect.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace sluice::clients {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* text(Ending ending) {
+  switch (ending) {
+    case Ending::kFinished:
+      return "finished";
+    case Ending::kBeingWritten:
+      return "being written";
+    case Ending::kCutShort:
+      return "cut short";
+  }
+  return "";
+}
+
+double seconds(std::int64_t time_ns) {
+  return 1e-9 * static_cast<double>(time_ns);
+}
+
+const char* shape_name(const Body& body) {
+  switch (body.shape_case()) {
+    case Body::kBox:
+      return "box";
+    case Body::kBall:
+      return "ball";
+    case Body::kPolygon:
+      return "polygon";
+    case Body::SHAPE_NOT_SET:
+      break;
+  }
+  return "none";
+}
+
+Json bodies(const Scene& scene) {
+  Json list = Json::array();
+  for (const auto& body : scene.body()) {
+    list.push_back({{"name", body.name()},
+                    {"shape", shape_name(body)},
+                    {"motion", body.has_prescribed() ? "prescribed" : "free"}});
+  }
+  return list;
+}
+
+Json energy(const Reader& recording, std::uint64_t frame) {
+  const Energy values = recording.energy(frame);
+  return {{"time", seconds(recording.instant(frame).time_ns)},
+          {"kinetic", values.kinetic()},
+          {"potential", values.potential()},
+          {"elastic", values.elastic()},
+          {"boundary_work", values.boundary_work()},
+          {"max_speed", values.max_speed()},
+          {"max_compression", values.max_compression()}};
+}
+
+// Everything there is to say; the text shows the same.
+Json describe(const Reader& recording) {
+  const Welcome& welcome = recording.welcome();
+  const Scene& scene = recording.scene();
+  const std::uint64_t frames = recording.frames();
+  Json result = {{"file", recording.path().string()},
+                 {"bytes", std::filesystem::file_size(recording.path())},
+                 {"run_id", recording.run_id()},
+                 {"ending", text(recording.ending())},
+                 {"reason", recording.reason()},
+                 {"detail", recording.detail()},
+                 {"wall_seconds", recording.wall_seconds()},
+                 {"scene", scene.name()},
+                 {"dimension", scene.dimension()},
+                 {"spacing", scene.spacing()},
+                 {"fluid_particles", welcome.fluid_particles()},
+                 {"boundary_particles", welcome.boundary_particles()},
+                 {"bodies", bodies(scene)},
+                 {"sound_speed", welcome.sound_speed()},
+                 {"steps", welcome.steps()},
+                 {"frames", frames},
+                 {"exchanges", recording.exchanges()},
+                 {"build",
+                  {{"version", welcome.build().version()},
+                   {"compiler", welcome.build().compiler()},
+                   {"processor", welcome.build().processor()},
+                   {"threads", welcome.build().threads()}}}};
+  if (frames > 0) {
+    result["last_step"] = recording.instant(frames - 1).step;
+    result["first"] = energy(recording, 0);
+    result["last"] = energy(recording, frames - 1);
+  }
+  return result;
+}
+
+std::string line(const std::string& name, const std::string& value) {
+  return fmt::format("{:<11}{}\n", name, value);
+}
+
+std::string ending_line(const Reader& recording) {
+  switch (recording.ending()) {
+    case Ending::kFinished:
+      return recording.reason() + (recording.detail().empty() ? "" : " - " + recording.detail());
+    case Ending::kBeingWritten:
+      return "still being written";
+    case Ending::kCutShort:
+      return "cut short: the recorder was killed; all that it acknowledged is here";
+  }
+  return "";
+}
+
+std::string energy_line(const Json& at) {
+  return fmt::format(
+      "t = {:.6g} s: kinetic {:.6g}, potential {:.6g}, elastic {:.6g}, boundary work {:.6g} J; "
+      "fastest {:.4g} m/s",
+      at["time"].get<double>(), at["kinetic"].get<double>(), at["potential"].get<double>(),
+      at["elastic"].get<double>(), at["boundary_work"].get<double>(), at["max_speed"].get<double>());
+}
+
+std::string frames_line(const Json& all, const Reader& recording) {
+  if (recording.frames() == 0) return "none";
+  return fmt::format("{} from t = {:.6g} to {:.6g} s, step {} of {}", recording.frames(),
+                     all["first"]["time"].get<double>(), all["last"]["time"].get<double>(),
+                     all["last_step"].get<std::uint64_t>(), recording.welcome().steps());
+}
+
+}  // namespace
+
+std::string inspect_json(const Reader& recording) {
+  return describe(recording).dump(2) + "\n";
+}
+
+std::string inspect(const Reader& recording) {
+  const Json all = describe(recording);
+  const Welcome& welcome = recording.welcome();
+  std::string result;
+  result += line("file",
+                 fmt::format("{} ({:.1f} MB)", recording.path().string(), 1e-6 * all["bytes"].get<double>()));
+  result += line("scene", fmt::format("{}, {}D, spacing {} m", recording.scene().name(),
+                                      recording.scene().dimension(), recording.scene().spacing()));
+  result += line("particles", fmt::format("{} fluid, {} boundary", welcome.fluid_particles(),
+                                          welcome.boundary_particles()));
+  for (const auto& body : all["bodies"]) {
+    result += line("body", fmt::format("{}: {}, {}", body["name"].get<std::string>(),
+                                       body["shape"].get<std::string>(), body["motion"].get<std::string>()));
+  }
+  result += line("frames", frames_line(all, recording));
+  if (recording.scene().body_size() > 0)
+    result += line("exchanges", fmt::format("steps 1 to {}", recording.exchanges()));
+  if (recording.frames() > 0) {
+    result += line("first", energy_line(all["first"]));
+    result += line("last", energy_line(all["last"]));
+  }
+  result += line("ended", ending_line(recording));
+  result += line("run", fmt::format("{}, {:.1f} s wall clock", recording.run_id(), recording.wall_seconds()));
+  result += line("build", fmt::format("sluice {}, {}, {}, {} threads", welcome.build().version(),
+                                      welcome.build().compiler(), welcome.build().processor(),
+                                      welcome.build().threads()));
+  return result;
+}
+
+}  // namespace sluice::clients

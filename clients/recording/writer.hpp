@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "clients/recording/output_file.hpp"
+#include "protocol/message.hpp"
+
+namespace sluice::clients {
+
+// Writes a recording (README.md has the layout). What flush() has returned for stays readable however the
+// process ends; what comes after may be lost.
+class Writer {
+ public:
+  // Creates the file with all its datasets from the Welcome of a recorder. Throws ProtocolError when the
+  // Welcome is incomplete and InputError when the file cannot be written.
+  Writer(OutputFile file, const protocol::Message& welcome);
+  ~Writer();
+  Writer(Writer&&) noexcept;
+  Writer& operator=(Writer&&) = delete;
+
+  // Appends a Frame or an ExchangeLog. Throws ProtocolError, having written nothing, when the message is not
+  // the next of its kind or its arrays are not what the Welcome announced; std::runtime_error when writing
+  // fails.
+  void write(const protocol::Message& message);
+  // Hands everything written so far to the operating system.
+  void flush();
+  // Records how the run ended, closes the file and writes the XDMF companion beside it.
+  void finish(const std::string& reason, const std::string& detail, double wall_seconds = 0);
+
+  [[nodiscard]] std::uint64_t frames() const;
+  [[nodiscard]] std::uint64_t exchanges() const;
+
+ private:
+  class File;
+  std::unique_ptr<File> file_;
+};
+
+}  // namespace sluice::clients

@@ -1,0 +1,82 @@
+#include "clients/recording/xdmf.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <fstream>
+
+#include "clients/recording/layout.hpp"
+#include "clients/recording/reader.hpp"
+
+namespace sluice::clients {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
+  }
+  return result;
+}
+
+// The rows of one frame in a dataset over all frames.
+std::string hyperslab(const Reader& recording, const layout::Field& field, std::uint64_t frame) {
+  const auto n = recording.welcome().fluid_particles();
+  const bool vector = field.row.size() == 2;
+  const std::string tail = vector ? " 3" : "";
+  return fmt::format(
+      "<DataItem ItemType=\"HyperSlab\" Dimensions=\"{0}{1}\">"
+      "<DataItem Dimensions=\"3 {2}\" Format=\"XML\">{3} 0{4} 1 1{5} 1 {0}{1}</DataItem>"
+      "<DataItem Dimensions=\"{6} {0}{1}\" NumberType=\"Float\" Precision=\"8\" "
+      "Format=\"HDF\">{7}:{8}</DataItem>"
+      "</DataItem>",
+      n, tail, vector ? 3 : 2, frame, vector ? " 0" : "", vector ? " 1" : "", recording.frames(),
+      escaped(recording.path().filename().string()), field.dataset);
+}
+
+void write_frame(std::ostream& out, const Reader& recording, const std::vector<layout::Field>& fields,
+                 std::uint64_t frame) {
+  const auto n = recording.welcome().fluid_particles();
+  fmt::print(out, "<Grid Name=\"frame {}\" GridType=\"Uniform\">\n<Time Value=\"{:.9g}\"/>\n", frame,
+             1e-9 * static_cast<double>(recording.instant(frame).time_ns));
+  fmt::print(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n",
+             n);
+  for (const auto& field : fields) {
+    const std::string name = field.array.substr(field.array.find('/') + 1);
+    if (name == "position") {
+      fmt::print(out, "<Geometry GeometryType=\"XYZ\">{}</Geometry>\n", hyperslab(recording, field, frame));
+    } else {
+      fmt::print(out, "<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n", name,
+                 field.row.size() == 2 ? "Vector" : "Scalar", hyperslab(recording, field, frame));
+    }
+  }
+  fmt::print(out, "</Grid>\n");
+}
+
+}  // namespace
+
+void write_xdmf(const std::filesystem::path& path) {
+  const Reader recording(path);
+  std::filesystem::path companion = path;
+  std::ofstream out(companion.replace_extension(".xdmf"));
+  fmt::print(out,
+             "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
+             "<Grid Name=\"fluid\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
+  auto fields = layout::frame_fields(recording.welcome().fluid_particles(), 0);
+  fields.resize(4);  // those of the fluid
+  for (std::uint64_t frame = 0; frame < recording.frames(); ++frame)
+    write_frame(out, recording, fields, frame);
+  fmt::print(out, "</Grid>\n</Domain>\n</Xdmf>\n");
+  if (!out.flush()) throw std::runtime_error("cannot write " + companion.string());
+}
+
+}  // namespace sluice::clients
