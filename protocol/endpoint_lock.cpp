@@ -60,9 +60,6 @@ EndpointLock::~EndpointLock() {
   for (const char* suffix : {"", ".publish", ".record", ".lock"})
     std::filesystem::remove(socket_.string() + suffix, ignored);
   close(descriptor_);
-  // The directory that private_endpoint made, once nothing is left in it.
-  const std::filesystem::path directory = socket_.parent_path();
-  if (directory.filename().string().starts_with("sluice-")) std::filesystem::remove(directory, ignored);
 }
 
 }  // namespace sluice::protocol
