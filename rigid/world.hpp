@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rigid/kinematics.hpp"
+#include "rigid/motion.hpp"
+#include "rigid/shape.hpp"
+
+namespace sluice::rigid {
+
+struct BodySpec {
+  std::string name;
+  Shape shape;
+  Pose pose;  // at time 0
+  // Of a free body: mass [kg] (per metre of depth in two dimensions) and twist at time 0 [m/s], [rad/s].
+  double mass = 0;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+  MotionPtr motion;  // prescribed; null: free
+};
+
+// Walls on the closed sides of a box. A wall is a whole plane: it goes on beyond the corners of the box.
+struct Tank {
+  Eigen::Vector3d min = Eigen::Vector3d::Zero(), max = Eigen::Vector3d::Zero();  // [m]
+  std::array<bool, 6> closed{};  // lower and upper side of x, y, z
+};
+
+struct WorldSpec {
+  int dimension = 2;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // [m/s^2]
+  Tank tank;
+  double friction = 0.3;  // Coulomb coefficient between bodies and with walls [-]; contact is inelastic
+  std::vector<BodySpec> bodies;
+};
+
+// All bodies of a scene, integrated by kick-drift-kick (README.md). A step is predict, then correct with the
+// wrenches that answer the prediction; where all bodies are prescribed, predict alone.
+class World {
+ public:
+  // Throws std::invalid_argument naming the body when a free one has no mass, or a motion does not start at
+  // zero.
+  explicit World(WorldSpec spec);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  // The fluid's action at time 0. Without it the bodies start under gravity alone.
+  void start(std::span<const Wrench> wrenches);
+
+  // Advances all poses by `dt` to the time `end` [s]; prescribed bodies stand where their motion is at `end`.
+  // Throws std::runtime_error naming the body when a free one turns by more than pi/4 or is no longer finite.
+  std::vector<Kinematics> predict(double end, double dt);
+
+  // Finishes the step that predict began, with the fluid's action at its end; those of prescribed bodies are
+  // not read. Throws std::invalid_argument when there is not one finite wrench for every body.
+  void correct(double dt, std::span<const Wrench> wrenches);
+
+  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] bool has_free_bodies() const;
+  // State at the end of the last whole step, with the velocities at that instant. For free bodies.
+  [[nodiscard]] Kinematics state(std::size_t body) const;
+  // Kinetic energy of a free body at the end of the last whole step [J].
+  [[nodiscard]] double kinetic_energy(std::size_t body) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace sluice::rigid
