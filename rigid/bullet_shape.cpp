@@ -3,9 +3,9 @@
 namespace sluice::rigid {
 namespace {
 
-// Bullet's margin rounds corners, and contact points found near a corner are off by a part of it, which lets
-// a polygon settle by that much. In double precision this share of half the thickness is enough for its
-// distance algorithm; the default of 0.04 m would swallow small bodies.
+// Bullet rounds shapes by a margin of 0.04 m, which would swallow small bodies. In double precision its
+// distance algorithm does with this share of half the thickness, and with none where polyhedra are clipped on
+// each other.
 constexpr double kMarginShare = 1e-5;
 
 std::unique_ptr<btCollisionShape> make(const Box& box, int dimension, double half_depth) {
@@ -24,27 +24,12 @@ std::unique_ptr<btCollisionShape> make(const Ball& ball, int dimension, double h
   return shape;
 }
 
-// Vertex i moved inward so that both its edges move by `distance`.
-Eigen::Vector2d inset(const std::vector<Eigen::Vector2d>& v, std::size_t i, double distance) {
-  const auto inward = [](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-    const Eigen::Vector2d edge = (to - from).normalized();
-    return Eigen::Vector2d(-edge.y(), edge.x());
-  };
-  const Eigen::Vector2d a = inward(v[(i + v.size() - 1) % v.size()], v[i]),
-                        b = inward(v[i], v[(i + 1) % v.size()]);
-  return v[i] + distance / (1 + a.dot(b)) * (a + b);
-}
-
-// Bullet adds a hull's margin outside, so the hull is drawn in by it.
-std::unique_ptr<btCollisionShape> make(const Polygon& polygon, int dimension, double half_depth) {
-  const double margin = kMarginShare * thickness(polygon, dimension) / 2;
+std::unique_ptr<btCollisionShape> make(const Polygon& polygon, int, double half_depth) {
   auto shape = std::make_unique<btConvexHullShape>();
-  for (std::size_t i = 0; i < polygon.vertices.size(); ++i) {
-    const Eigen::Vector2d corner = inset(polygon.vertices, i, margin);
-    for (const double z : {-half_depth + margin, half_depth - margin})
-      shape->addPoint(btVector3(corner.x(), corner.y(), z), false);
-  }
-  shape->setMargin(margin);
+  shape->setMargin(0);
+  for (const Eigen::Vector2d& vertex : polygon.vertices)
+    for (const double z : {-half_depth, half_depth})
+      shape->addPoint(btVector3(vertex.x(), vertex.y(), z), false);
   shape->recalcLocalAabb();
   shape->initializePolyhedralFeatures();
   return shape;
