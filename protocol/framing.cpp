@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include <fmt/format.h>
+#include <google/protobuf/stubs/logging.h>
 
 #include "protocol/array_layout.hpp"
 
@@ -97,6 +98,7 @@ Header parse_header(const zmq::message_t& frame, const Limits& limits) {
   if (frame.size() > limits.header_bytes)
     throw ProtocolError(
         fmt::format("a header of {} bytes, allowed are {}", frame.size(), limits.header_bytes));
+  const google::protobuf::LogSilencer quiet;  // a peer must not fill our log
   Header header;
   if (!header.ParseFromArray(frame.data(), static_cast<int>(frame.size())))
     throw ProtocolError(fmt::format("{} bytes that are not a header", frame.size()));

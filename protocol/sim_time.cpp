@@ -9,6 +9,8 @@
 namespace sluice::protocol {
 namespace {
 
+__extension__ using Wide = __int128;  // for products of times and counts
+
 constexpr Nanoseconds kShortestStep = 1000;
 constexpr double kLongestRun = 1e9;  // [s], so that all instants fit into 63 bits
 
@@ -28,27 +30,23 @@ Nanoseconds ceil_divide(Nanoseconds a, Nanoseconds b) {
   return (a + b - 1) / b;
 }
 
-// Steps from the last whole interval to the end of the run. Rounding the interval to nanoseconds must not
+// Steps of the whole run. Rounding the interval to nanoseconds must not
 // leave a run of n intervals a sliver short of, or past, its last output.
 std::uint64_t count_steps(Nanoseconds duration, Nanoseconds interval, Nanoseconds steps_per_interval) {
   const Nanoseconds intervals = (duration + interval / 2) / interval;
   if (std::abs(intervals * interval - duration) <= intervals)
     return static_cast<std::uint64_t>(intervals * steps_per_interval);
-  const Nanoseconds rest = duration % interval;
-  const Nanoseconds longest = ceil_divide(interval, steps_per_interval);
-  return static_cast<std::uint64_t>(duration / interval * steps_per_interval + ceil_divide(rest, longest));
+  const Nanoseconds rest = ceil_divide(Wide{duration % interval} * steps_per_interval, interval);
+  return static_cast<std::uint64_t>(duration / interval * steps_per_interval + rest);
 }
 
 }  // namespace
 
 StepClock::StepClock(Nanoseconds interval, std::uint64_t steps_per_interval, std::uint64_t steps)
     : interval_(interval), steps_per_interval_(steps_per_interval), steps_(steps) {
-  constexpr std::uint64_t kMostPerInterval = std::numeric_limits<std::uint32_t>::max() / 2;
-  if (interval < 1 || steps_per_interval < 1 || steps_per_interval > kMostPerInterval ||
-      steps_per_interval > static_cast<std::uint64_t>(interval))
-    throw std::invalid_argument(
-        fmt::format("{} steps in an interval of {} ns: need 1 to {} steps of at least 1 ns",
-                    steps_per_interval, interval, kMostPerInterval));
+  if (interval < 1 || steps_per_interval < 1 || steps_per_interval > static_cast<std::uint64_t>(interval))
+    throw std::invalid_argument(fmt::format("{} steps in an interval of {} ns: each needs at least 1 ns",
+                                            steps_per_interval, interval));
   const auto most = static_cast<std::uint64_t>(std::numeric_limits<Nanoseconds>::max() / interval);
   if (steps / steps_per_interval >= most)
     throw std::invalid_argument(
@@ -77,9 +75,7 @@ Nanoseconds StepClock::time(std::uint64_t step) const {
   const auto per_interval = static_cast<Nanoseconds>(steps_per_interval_);
   const auto whole = static_cast<Nanoseconds>(step / steps_per_interval_);
   const auto part = static_cast<Nanoseconds>(step % steps_per_interval_);
-  // part * interval / per_interval without the product, which may not fit.
-  return whole * interval_ + part * (interval_ / per_interval) +
-         part * (interval_ % per_interval) / per_interval;
+  return whole * interval_ + static_cast<Nanoseconds>(Wide{part} * interval_ / per_interval);
 }
 
 Nanoseconds StepClock::duration(std::uint64_t step) const {
