@@ -1,0 +1,115 @@
+#include "server/content.hpp"
+
+#include "server/build_info.hpp"
+#include "server/kinematics_rows.hpp"
+
+namespace sluice::server {
+
+using protocol::Message;
+
+namespace {
+
+void add_points(Message& message, std::string_view name, const std::vector<Eigen::Vector3d>& points) {
+  std::vector<double> flat;
+  flat.reserve(3 * points.size());
+  for (const Eigen::Vector3d& x : points) flat.insert(flat.end(), {x.x(), x.y(), x.z()});
+  message.add_array<double>(name, flat, {points.size(), 3});
+}
+
+void add_boundaries(Message& message, const Simulation& simulation) {
+  add_points(message, "wall/position", simulation.walls.position);
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<std::int32_t> bodies;
+  for (std::size_t b = 0; b < simulation.boundaries.size(); ++b) {
+    const std::vector<Eigen::Vector3d>& points = simulation.boundaries[b].position;
+    positions.insert(positions.end(), points.begin(), points.end());
+    bodies.insert(bodies.end(), points.size(), static_cast<std::int32_t>(b));
+  }
+  add_points(message, "boundary/position", positions);
+  message.add_array<std::int32_t>("boundary/body", bodies, {bodies.size()});
+}
+
+void add_wrenches(Message& message, std::string_view name, std::span<const fluid::Wrench> wrenches) {
+  std::vector<double> rows;
+  for (const fluid::Wrench& wrench : wrenches) append(rows, wrench);
+  message.add_array<double>(name, rows, {wrenches.size(), kWrenchRow});
+}
+
+void fill_energy(Energy& energy, const fluid::Diagnostics& diagnostics) {
+  energy.set_kinetic(diagnostics.kinetic);
+  energy.set_potential(diagnostics.potential);
+  energy.set_elastic(diagnostics.elastic);
+  energy.set_boundary_work(diagnostics.boundary_work);
+  energy.set_max_speed(diagnostics.max_speed);
+  energy.set_max_compression(diagnostics.max_compression);
+  for (int a = 0; a < 3; ++a) {
+    energy.add_momentum(diagnostics.momentum[a]);
+    energy.add_angular_momentum(diagnostics.angular_momentum[a]);
+  }
+}
+
+}  // namespace
+
+Message welcome(const Simulation& simulation, const protocol::Endpoint& endpoint, Role role) {
+  Message message;
+  Welcome& content = *message.header.mutable_welcome();
+  *content.mutable_scene() = simulation.scene;
+  content.set_interval_ns(simulation.clock.interval());
+  content.set_steps_per_interval(simulation.clock.steps_per_interval());
+  content.set_steps(simulation.clock.steps());
+  content.set_fluid_particles(simulation.fluid_particles);
+  content.set_boundary_particles(simulation.boundary_particles());
+  *content.mutable_build() = build_info(simulation.threads);
+  content.set_publish_endpoint(endpoint.publish);
+  content.set_record_endpoint(endpoint.record);
+  content.set_sound_speed(simulation.scene.liquid().sound_speed());
+  content.set_particle_mass(simulation.particle_mass);
+  if (role == RIGID) {
+    add_wrenches(message, "wrenches", simulation.initial_wrenches);
+  } else {
+    add_boundaries(message, simulation);
+  }
+  return message;
+}
+
+Message frame(const Simulation& simulation, std::uint64_t step, std::span<const double> kinematics) {
+  const fluid::Snapshot state = simulation.solver->snapshot();
+  const std::uint64_t n = state.density.size();
+  Message message;
+  message.header.set_step(step);
+  message.add_array<double>("fluid/position", state.position, {n, 3});
+  message.add_array<double>("fluid/velocity", state.velocity, {n, 3});
+  message.add_array<double>("fluid/density", state.density, {n});
+  message.add_array<double>("fluid/pressure", state.pressure, {n});
+  message.add_array<double>("body/kinematics", kinematics,
+                            {kinematics.size() / kKinematicsRow, kKinematicsRow});
+  add_wrenches(message, "body/wrench", simulation.solver->wrenches());
+
+  Frame& content = *message.header.mutable_frame();
+  content.set_index(step / simulation.clock.steps_per_interval());
+  content.set_hash(message.hash_arrays());
+  fill_energy(*content.mutable_energy(), simulation.solver->diagnostics());
+  return message;
+}
+
+Message status(std::uint64_t step, std::uint64_t steps, double wall_seconds, double steps_per_second) {
+  Message message;
+  message.header.set_step(step);
+  Status& content = *message.header.mutable_status();
+  content.set_steps(steps);
+  content.set_wall_seconds(wall_seconds);
+  content.set_steps_per_second(steps_per_second);
+  return message;
+}
+
+Message end(std::uint64_t step, End::Reason reason, const std::string& detail, double wall_seconds) {
+  Message message;
+  message.header.set_step(step);
+  End& content = *message.header.mutable_end();
+  content.set_reason(reason);
+  content.set_detail(detail);
+  content.set_wall_seconds(wall_seconds);
+  return message;
+}
+
+}  // namespace sluice::server

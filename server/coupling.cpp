@@ -1,0 +1,226 @@
+#include "server/coupling.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "protocol/version.hpp"
+#include "server/content.hpp"
+
+namespace sluice::server {
+
+using protocol::Message;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+namespace {
+
+constexpr milliseconds kSlice{100};    // of waiting, after each of which lost peers are looked for
+constexpr milliseconds kPollEvery{5};  // between steps
+constexpr milliseconds kBeatEvery{1000};
+
+// "the recorder did not join within 30 s"
+std::string late(std::string_view what, milliseconds deadline) {
+  return fmt::format("{} within {:g} s", what, std::chrono::duration<double>(deadline).count());
+}
+
+Stop silent_recorder(milliseconds deadline) {
+  return {End::RECORDER_LOST, late("the recorder acknowledged nothing", deadline)};
+}
+
+Exchange make_exchange(const Simulation& simulation) {
+  return {simulation.bodies.size(), simulation.clock.steps(), simulation.has_free_body()};
+}
+
+}  // namespace
+
+Coupling::Coupling(const Simulation& simulation, Sockets& sockets, const Options& options)
+    : simulation_(simulation),
+      sockets_(sockets),
+      options_(options),
+      bodies_(simulation.bodies.size()),
+      session_(sockets.exchange, {.rigid = bodies_ > 0, .recorder = options.expect_recorder},
+               [this](Role role) { return welcome(simulation_, sockets_.endpoint, role); }),
+      exchange_(make_exchange(simulation)),
+      log_(bodies_),
+      recorder_(sockets.record),
+      publisher_(sockets.publish) {
+  for (const fluid::Kinematics& body : simulation.bodies) append(rows_, body);
+}
+
+void Coupling::wait_for_participants() {
+  service(milliseconds(0));  // who is waiting already is taken in even when nobody is needed
+  wait_until([this] { return session_.complete(); }, options_.start_deadline,
+             [this] {
+               const bool rigid_missing = bodies_ > 0 && !session_.present(RIGID);
+               return rigid_missing ? Stop(End::PARTICIPANT_TIMEOUT,
+                                           late("the rigid process did not join", options_.start_deadline))
+                                    : Stop(End::RECORDER_LOST,
+                                           late("the recorder did not join", options_.start_deadline));
+             });
+  session_.begin();
+  progress_ = Progress();
+}
+
+std::span<const fluid::Kinematics> Coupling::kinematics(std::uint64_t step) {
+  if (bodies_ == 0) return {};
+  wait_until([&] { return exchange_.has(step); }, options_.deadline,
+             [&] {
+               const std::string what = fmt::format("the rigid process sent no kinematics of step {}", step);
+               return Stop(End::PARTICIPANT_TIMEOUT, late(what, options_.deadline));
+             });
+  const std::span<const double> rows = exchange_.rows(step);
+  rows_.assign(rows.begin(), rows.end());
+  return exchange_.kinematics(step);
+}
+
+void Coupling::answer(std::uint64_t step) {
+  step_ = step;
+  if (bodies_ == 0) return;
+  const std::span<const fluid::Wrench> wrenches = simulation_.solver->wrenches();
+  if (std::optional<Message> reply = exchange_.answer(step, wrenches)) {
+    stamp(reply->header);
+    session_.send(RIGID, std::move(*reply));
+  }
+  if (!options_.expect_recorder) return;
+  log_.add(step, rows_, wrenches);
+  if (log_.full()) record_log();
+}
+
+void Coupling::output(std::uint64_t step) {
+  publisher_.update();
+  const bool published = publisher_.wanted("frame");
+  if (!published && !options_.expect_recorder) return;
+  Message message = frame(simulation_, step, rows_);
+  stamp(message.header);
+  ++frames_serialised_;
+  if (published) publisher_.publish("frame", message);
+  record_log();
+  record(std::move(message));
+}
+
+void Coupling::poll() {
+  if (steady_clock::now() - polled_ < kPollEvery) return;
+  service(milliseconds(0));
+  session_.heartbeat(kBeatEvery);
+}
+
+void Coupling::end(Outcome& outcome) {
+  ending_ = true;
+  session_.finish();
+  outcome.steps = step_;
+  outcome.frames_serialised = frames_serialised_;
+  const auto message = [&] {
+    Message end_message = server::end(step_, outcome.reason, outcome.detail, progress_.wall_seconds());
+    stamp(end_message.header);
+    return end_message;
+  };
+  try {
+    if (options_.expect_recorder && session_.present(RECORDER)) {
+      record_log();
+      record(message());
+      drain_recorder();
+    }
+  } catch (const Stop& stop) {
+    spdlog::warn("while ending: {}", stop.what());
+    if (outcome.reason == End::FINISHED) {
+      outcome.reason = stop.reason();
+      outcome.detail = stop.what();
+    }
+  }
+  session_.send(RIGID, message());
+  publisher_.update();
+  publisher_.publish("status", message());
+}
+
+template <typename Done, typename Fail>
+void Coupling::wait_until(const Done& done, milliseconds deadline, const Fail& fail) {
+  const auto limit = steady_clock::now() + deadline;
+  while (!done()) {
+    if (steady_clock::now() > limit) throw fail();
+    service(std::min(kSlice, deadline));
+    session_.heartbeat(kSlice);
+  }
+}
+
+void Coupling::service(milliseconds timeout) {
+  polled_ = steady_clock::now();
+  zmq::pollitem_t items[] = {{sockets_.exchange.handle(), 0, ZMQ_POLLIN, 0},
+                             {sockets_.publish.handle(), 0, ZMQ_POLLIN, 0}};
+  try {
+    zmq::poll(items, std::size(items), timeout);
+  } catch (const zmq::error_t& error) {
+    if (error.num() != EINTR) throw;  // a signal: looked at next
+  }
+  if (!ending_ && options_.interrupted != nullptr && options_.interrupted->load()) {
+    throw Stop(End::INTERRUPTED, fmt::format("by a signal after step {}", step_));
+  }
+  while (const std::optional<Session::Inbound> inbound = session_.receive()) dispatch(*inbound);
+  publisher_.update();
+  if (progress_.due()) publish_status();
+}
+
+void Coupling::dispatch(const Session::Inbound& inbound) {
+  const Header& header = inbound.message.header;
+  try {
+    if (header.has_hello()) {
+      // A rigid process in the place of one that went before the run began starts over.
+      if (inbound.role == RIGID) exchange_ = make_exchange(simulation_);
+    } else if (inbound.role == RIGID && header.has_kinematics()) {
+      std::optional<Message> reply = exchange_.accept(inbound.message);
+      if (!reply) return;
+      stamp(reply->header);
+      session_.send(RIGID, std::move(*reply));
+    } else if (inbound.role == RECORDER && header.has_acknowledgement()) {
+      recorder_.acknowledge(header.acknowledgement().sequence());
+    } else {
+      throw Refused(Refusal::BAD_MESSAGE,
+                    fmt::format("message content {} is not for the role {} to send",
+                                static_cast<int>(header.content_case()), Role_Name(inbound.role)));
+    }
+  } catch (const Refused& refused) {
+    session_.refuse(inbound.role, refused);
+  }
+}
+
+void Coupling::record(Message message) {
+  if (!options_.expect_recorder) return;
+  const milliseconds deadline = options_.recorder_deadline;
+  wait_until([this] { return recorder_.has_room(); }, deadline, [&] { return silent_recorder(deadline); });
+  wait_until([&] { return recorder_.offer(message); }, deadline,
+             [&] {
+               return Stop(End::RECORDER_LOST,
+                           late("the recorder did not connect to the record endpoint", deadline));
+             });
+}
+
+void Coupling::record_log() {
+  if (std::optional<Message> message = log_.take()) {
+    stamp(message->header);
+    record(std::move(*message));
+  }
+}
+
+// Waits for every acknowledgement; the deadline is for each.
+void Coupling::drain_recorder() {
+  while (recorder_.acknowledged() < recorder_.sent()) {
+    const std::uint64_t before = recorder_.acknowledged();
+    wait_until([&] { return recorder_.acknowledged() > before; }, options_.recorder_deadline,
+               [this] { return silent_recorder(options_.recorder_deadline); });
+  }
+}
+
+void Coupling::publish_status() {
+  const double rate = progress_.rate(step_);
+  if (!publisher_.wanted("status")) return;
+  Message message = status(step_, simulation_.clock.steps(), progress_.wall_seconds(), rate);
+  stamp(message.header);
+  publisher_.publish("status", message);
+}
+
+void Coupling::stamp(Header& header) const {
+  header.set_protocol_version(protocol::kProtocolVersion);
+  header.set_run_id(session_.run_id());
+  header.set_time_ns(simulation_.clock.time(header.step()));
+}
+
+}  // namespace sluice::server

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <span>
+
+#include "server/exchange.hpp"
+#include "server/exchange_logger.hpp"
+#include "server/progress.hpp"
+#include "server/publisher.hpp"
+#include "server/record_stream.hpp"
+#include "server/session.hpp"
+#include "server/simulation.hpp"
+#include "server/sockets.hpp"
+
+namespace sluice::server {
+
+struct Options {
+  bool expect_recorder = false;
+  std::chrono::milliseconds deadline{4000};            // for the kinematics of a step
+  std::chrono::milliseconds start_deadline{30000};     // for everyone to join
+  std::chrono::milliseconds recorder_deadline{30000};  // for an acknowledgement the run waits for
+  const std::atomic<bool>* interrupted = nullptr;      // set by a signal: end in good order
+};
+
+// The run's side of every conversation: poses in, wrenches out, frames to the recorder and the watchers.
+// Called from the thread of the simulation; all messages are dealt with inside these calls. Any of them may
+// throw Stop.
+class Coupling {
+ public:
+  Coupling(const Simulation& simulation, Sockets& sockets, const Options& options);
+
+  void wait_for_participants();
+
+  // The bodies' poses over a step; waits for the rigid process. Empty when the scene has no bodies.
+  std::span<const fluid::Kinematics> kinematics(std::uint64_t step);
+  // The step is done: logs the exchange and answers the rigid process with the solver's wrenches.
+  void answer(std::uint64_t step);
+  // Hands the state to the recorder and the watchers; waits while the recorder is too far behind.
+  void output(std::uint64_t step);
+  // Looks after messages and publishes the status. Costs next to nothing when it was called just before.
+  void poll();
+
+  // Tells everyone; waits until the recorder has everything. Does not throw Stop: when the recorder is lost
+  // here, that becomes the outcome of a run that was fine.
+  void end(Outcome& outcome);
+
+ private:
+  // Serves messages until done(); throws fail() when that takes longer than the deadline.
+  template <typename Done, typename Fail>
+  void wait_until(const Done& done, std::chrono::milliseconds deadline, const Fail& fail);
+  void service(std::chrono::milliseconds timeout);
+  void dispatch(const Session::Inbound& inbound);
+  void record(protocol::Message message);
+  void record_log();
+  void drain_recorder();
+  void publish_status();
+  // Adds run id, version and time to a message that does not go through the session.
+  void stamp(Header& header) const;
+
+  const Simulation& simulation_;
+  Sockets& sockets_;
+  Options options_;
+  std::size_t bodies_;
+  Session session_;
+  Exchange exchange_;
+  ExchangeLogger log_;
+  RecordStream recorder_;
+  Publisher publisher_;
+  Progress progress_;
+  std::chrono::steady_clock::time_point polled_;
+  std::vector<double> rows_;  // kinematics of the last step
+  std::uint64_t step_ = 0;    // done
+  std::uint64_t frames_serialised_ = 0;
+  bool ending_ = false;
+};
+
+}  // namespace sluice::server

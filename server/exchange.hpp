@@ -1,0 +1,60 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "protocol/message.hpp"
+#include "scene.pb.h"
+#include "server/kinematics_rows.hpp"
+
+namespace sluice::server {
+
+// The kinematics the rigid process sent for steps to come, and the replies it is owed. Knows no socket.
+//
+// Sequences and steps are contiguous from 1. When a body is free every message is one step, as the next needs
+// its answer; otherwise messages hold up to kMostSteps steps and up to kMostUnanswered of them wait here.
+class Exchange {
+ public:
+  static constexpr std::uint32_t kMostSteps = 256;
+  static constexpr std::size_t kMostUnanswered = 2;
+
+  Exchange(std::size_t bodies, std::uint64_t steps, bool lock_step);
+
+  // Takes in a message with Kinematics. The sequence of a message that is answered already returns the reply
+  // that was given; of one that waits for its answer, nothing. Throws Refused for anything else that is not
+  // the next.
+  std::optional<protocol::Message> accept(const protocol::Message& message);
+
+  // The poses over a step. Steps are asked for and answered in order.
+  [[nodiscard]] bool has(std::uint64_t step) const;
+  [[nodiscard]] std::span<const fluid::Kinematics> kinematics(std::uint64_t step);
+  // The rows they came in, bit for bit.
+  [[nodiscard]] std::span<const double> rows(std::uint64_t step) const;
+
+  // Notes the fluid's action at the end of a step; the reply when it was the last of its message.
+  std::optional<protocol::Message> answer(std::uint64_t step, std::span<const fluid::Wrench> wrenches);
+
+ private:
+  struct Batch {
+    std::uint64_t sequence, first_step, count;
+    std::vector<double> kinematics;
+    std::vector<double> wrenches;
+  };
+
+  void check(const protocol::Message& message) const;
+  void check_rows(std::span<const double> rows, std::uint64_t first_step) const;
+  [[nodiscard]] protocol::Message reply(const Batch& batch) const;
+
+  std::size_t bodies_;
+  std::uint64_t steps_;
+  bool lock_step_;
+  std::uint64_t last_sequence_ = 0;  // taken in
+  std::uint64_t last_step_ = 0;
+  std::deque<Batch> batches_;              // not answered yet
+  std::deque<protocol::Message> replies_;  // the last kMostUnanswered
+  std::vector<fluid::Kinematics> current_;
+};
+
+}  // namespace sluice::server

@@ -1,0 +1,124 @@
+// The fluid server as a program: reads a scene, listens, runs it with whoever joins.
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
+
+#include <csignal>
+#include <thread>
+
+#include "protocol/scene_check.hpp"
+#include "protocol/scene_file.hpp"
+#include "server/run.hpp"
+
+namespace {
+
+using namespace sluice;
+
+std::atomic<bool> interrupted{false};
+
+void on_signal(int) {
+  interrupted = true;
+}
+
+struct Arguments {
+  std::string scene;
+  std::string listen;
+  std::vector<std::string> overrides;
+  std::string keys;  // directory; empty: no encryption, this machine only
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  double until = 0;  // [s]; 0: the scene's duration
+  double deadline = 4, start_deadline = 30, recorder_deadline = 30;
+  bool expect_recorder = false;
+};
+
+void declare(CLI::App& app, Arguments& arguments) {
+  app.add_option("--scene", arguments.scene, "Scene file, textproto or JSON")->required();
+  app.add_option("--listen", arguments.listen, "ipc://PATH or tcp://HOST:PORT")->required();
+  app.add_option("--keys", arguments.keys, "Directory of keys (sluice keygen); lets other machines connect");
+  app.add_option("--set", arguments.overrides, "Change a field of the scene: PATH=VALUE");
+  app.add_option("--threads", arguments.threads, "Threads of the solver")->check(CLI::Range(1, 1024));
+  app.add_option("--until", arguments.until, "Simulated time to stop at [s]")->check(CLI::PositiveNumber);
+  app.add_flag("--expect-recorder", arguments.expect_recorder, "Wait for a recorder, and for it to keep up");
+  const auto deadline = [&](const char* name, double& value, const char* text) {
+    app.add_option(name, value, text)->check(CLI::Range(1e-3, 1e6))->capture_default_str();
+  };
+  deadline("--deadline", arguments.deadline, "Longest wait for the rigid process in a step [s]");
+  deadline("--start-deadline", arguments.start_deadline, "Longest wait for everyone to join [s]");
+  deadline("--recorder-deadline", arguments.recorder_deadline, "Longest wait for the recorder [s]");
+}
+
+server::Options to_options(const Arguments& arguments) {
+  const auto milliseconds = [](double seconds) {
+    return std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * seconds));
+  };
+  return {.expect_recorder = arguments.expect_recorder,
+          .deadline = milliseconds(arguments.deadline),
+          .start_deadline = milliseconds(arguments.start_deadline),
+          .recorder_deadline = milliseconds(arguments.recorder_deadline),
+          .interrupted = &interrupted};
+}
+
+// The output rate stays that of the whole scene when the run is cut.
+Scene to_scene(const protocol::SceneFile& file, double until) {
+  Scene scene = protocol::with_defaults(file.scene());
+  if (until > 0) scene.set_duration(until);
+  return scene;
+}
+
+server::Simulation prepare(const protocol::SceneFile& file, const Arguments& arguments) {
+  try {
+    return server::make_simulation(to_scene(file, arguments.until), arguments.threads);
+  } catch (const protocol::SceneError& error) {
+    std::vector<protocol::Problem> problems = error.problems();
+    for (protocol::Problem& problem : problems) problem.where = file.locate(problem.field);
+    throw protocol::SceneError(std::move(problems));
+  } catch (const std::invalid_argument& error) {
+    throw protocol::InputError(fmt::format("{}: {}", arguments.scene, error.what()));
+  }
+}
+
+std::optional<protocol::ServerKeys> load_keys(const std::string& directory) {
+  if (directory.empty()) return std::nullopt;
+  return protocol::ServerKeys::load(directory);
+}
+
+int serve(const Arguments& arguments) {
+  const protocol::SceneFile file = protocol::SceneFile::load(arguments.scene, arguments.overrides);
+  const std::optional<protocol::ServerKeys> keys = load_keys(arguments.keys);
+  server::Sockets sockets(protocol::Endpoint::parse(arguments.listen, keys.has_value()), keys);
+  server::Simulation simulation = prepare(file, arguments);
+  spdlog::info("{}: {} fluid and {} boundary particles, {} steps, {} threads; listening on {}",
+               simulation.scene.name(), simulation.fluid_particles, simulation.boundary_particles(),
+               simulation.clock.steps(), simulation.threads, sockets.endpoint.exchange);
+  const server::Outcome outcome = server::run(simulation, sockets, to_options(arguments));
+  spdlog::info("status: {}", server::to_string(outcome));
+  return server::exit_code(outcome.reason);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_logger_st("sluice-server"));
+  spdlog::set_pattern("[sluice-server] %v");
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+
+  CLI::App app("Simulates the liquid of a scene and serves it to a rigid process, a recorder and watchers");
+  Arguments arguments;
+  declare(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? protocol::kDone : protocol::kBadInput;
+  }
+  try {
+    return serve(arguments);
+  } catch (const protocol::InputError& error) {
+    spdlog::error("{}", error.what());
+    return protocol::kBadInput;
+  } catch (const std::exception& error) {
+    spdlog::error("internal error: {}", error.what());
+    return protocol::kProcessFailed;
+  }
+}

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include "protocol/framing.hpp"
+
+namespace sluice::server {
+
+// The lossless stream to the recorder: at most kMostMessages or about kMostBytes are sent and not
+// acknowledged; then the run has to wait. Nothing is ever dropped.
+class RecordStream {
+ public:
+  static constexpr std::size_t kMostMessages = 64;
+  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+
+  explicit RecordStream(zmq::socket_t& push) : push_(push) {}
+
+  [[nodiscard]] bool has_room() const;
+  // Sends the message under the next sequence; false while no recorder is connected. Precondition:
+  // has_room().
+  bool offer(protocol::Message& message);
+
+  // Everything up to `sequence` is on disk. Throws Refused for one that was not sent.
+  void acknowledge(std::uint64_t sequence);
+  [[nodiscard]] std::uint64_t sent() const { return last_sequence_; }
+  [[nodiscard]] std::uint64_t acknowledged() const { return last_sequence_ - in_flight_.size(); }
+
+ private:
+  zmq::socket_t& push_;
+  std::uint64_t last_sequence_ = 0;
+  std::deque<std::size_t> in_flight_;  // bytes of each message not acknowledged, oldest first
+  std::size_t bytes_ = 0;              // their sum
+};
+
+}  // namespace sluice::server

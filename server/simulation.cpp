@@ -1,0 +1,102 @@
+#include "server/simulation.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "fluid/sampling.hpp"
+#include "protocol/scene_check.hpp"
+#include "server/geometry.hpp"
+#include "server/liquid.hpp"
+
+namespace sluice::server {
+
+namespace {
+
+// closed[2 a] and closed[2 a + 1]: lower and upper side of axis a.
+std::array<bool, 6> closed_sides(const Domain& domain) {
+  std::array<bool, 6> closed;
+  closed.fill(true);
+  for (const int side : domain.open()) {
+    if (side != SIDE_UNSPECIFIED) closed[static_cast<std::size_t>(side - X_MIN)] = false;
+  }
+  return closed;
+}
+
+fluid::Formulation to_formulation(const Formulation& formulation) {
+  fluid::Formulation result;
+  if (formulation.has_smoothing()) result.smoothing = formulation.smoothing();
+  if (formulation.has_density_diffusion()) result.density_diffusion = formulation.density_diffusion();
+  if (formulation.has_artificial_viscosity())
+    result.artificial_viscosity = formulation.artificial_viscosity();
+  if (formulation.has_moment_floor()) result.moment_floor = formulation.moment_floor();
+  if (formulation.has_courant()) result.courant = formulation.courant();
+  return result;
+}
+
+protocol::StepClock make_clock(const Scene& scene, double largest_step) {
+  try {
+    return protocol::StepClock::for_run(scene.duration(), scene.output().rate(), largest_step);
+  } catch (const std::invalid_argument& error) {
+    throw protocol::InputError(std::string(error.what()) +
+                               "; take a larger spacing or a smaller liquid.sound_speed");
+  }
+}
+
+}  // namespace
+
+fluid::Setup to_setup(const Scene& scene, int threads) {
+  fluid::Setup setup;
+  setup.dimension = static_cast<int>(scene.dimension());
+  setup.spacing = scene.spacing();
+  setup.gravity = to_vector(scene.gravity());
+  setup.liquid = {.density = scene.liquid().density(),
+                  .viscosity = scene.liquid().viscosity(),
+                  .sound_speed = scene.liquid().sound_speed()};
+  setup.formulation = to_formulation(scene.formulation());
+  setup.fluid = fill_liquid(scene);
+  setup.threads = threads;
+
+  const double support = 2 * setup.formulation.smoothing * setup.spacing;  // of the kernel, 2 h
+  setup.walls = fluid::sample_walls(to_vector(scene.domain().min()), to_vector(scene.domain().max()),
+                                    closed_sides(scene.domain()), setup.spacing, support, setup.dimension);
+  for (const Body& body : scene.body()) {
+    setup.bodies.push_back(fluid::sample_body(to_shape(body), setup.spacing, support, setup.dimension));
+  }
+  return setup;
+}
+
+bool Simulation::has_free_body() const {
+  return std::any_of(scene.body().begin(), scene.body().end(),
+                     [](const Body& b) { return !b.has_prescribed(); });
+}
+
+std::size_t Simulation::boundary_particles() const {
+  std::size_t count = walls.position.size();
+  for (const fluid::Boundary& boundary : boundaries) count += boundary.position.size();
+  return count;
+}
+
+Simulation make_simulation(const Scene& given, int threads, const SolverFactory& factory) {
+  Scene scene = protocol::with_defaults(given);
+  fluid::Setup setup = to_setup(scene, threads);
+
+  std::vector<fluid::Kinematics> bodies;
+  for (const Body& body : scene.body()) bodies.push_back(initial_kinematics(body, setup.dimension));
+  std::unique_ptr<fluid::Solver> solver = factory(setup);
+  const protocol::StepClock clock = make_clock(scene, solver->largest_step(scene.liquid().max_speed()));
+  solver->start(bodies);
+  const std::span<const fluid::Wrench> wrenches = solver->wrenches();
+
+  return {.scene = std::move(scene),
+          .bodies = std::move(bodies),
+          .initial_wrenches = {wrenches.begin(), wrenches.end()},
+          .solver = std::move(solver),
+          .clock = clock,
+          .walls = std::move(setup.walls),
+          .boundaries = std::move(setup.bodies),
+          .fluid_particles = setup.fluid.position.size(),
+          .particle_mass = setup.liquid.density * setup.fluid.volume,
+          .threads = threads};
+}
+
+}  // namespace sluice::server

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "fluid/solver.hpp"
+#include "protocol/sim_time.hpp"
+#include "scene.pb.h"
+
+namespace sluice::server {
+
+// What the solver needs, from a scene with its defaults filled in. Throws SceneError (see fill_liquid).
+fluid::Setup to_setup(const Scene& scene, int threads);
+
+// A scene ready to run: the solver has computed the forces at time 0.
+struct Simulation {
+  Scene scene;                            // with its defaults
+  std::vector<fluid::Kinematics> bodies;  // at time 0
+  std::vector<fluid::Wrench> initial_wrenches;
+  std::unique_ptr<fluid::Solver> solver;
+  protocol::StepClock clock;
+  // What watchers and the recorder are told of the setup.
+  fluid::Boundary walls;
+  std::vector<fluid::Boundary> boundaries;
+  std::size_t fluid_particles = 0;
+  double particle_mass = 0;  // at zero pressure [kg], per metre of depth in 2D
+  int threads = 1;
+
+  // Whether a body moves by the fluid's forces, so that the rigid process needs every answer.
+  [[nodiscard]] bool has_free_body() const;
+  [[nodiscard]] std::size_t boundary_particles() const;
+};
+
+using SolverFactory = std::function<std::unique_ptr<fluid::Solver>(const fluid::Setup&)>;
+
+// Throws SceneError when the scene cannot be set up, InputError when its steps would be too short.
+Simulation make_simulation(const Scene& scene, int threads,
+                           const SolverFactory& factory = fluid::make_solver);
+
+}  // namespace sluice::server
