@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "protocol/field_check.hpp"
@@ -69,7 +70,8 @@ void check_domain(const Scene& scene, FieldCheck& check) {
   if (!check.vector(domain.max(), "domain.max", "the tank's upper corner")) return;
   for (int a = 0; a < domain.max_size(); ++a) {
     const double low = a < domain.min_size() ? domain.min(a) : 0;
-    if (domain.max(a) - low < scene.spacing() || domain.max(a) <= low)
+    const double edge = domain.max(a) - low;
+    if (edge <= 0 || (edge < scene.spacing() && std::isfinite(scene.spacing())))
       check.report(fmt::format("domain.max[{}]", a),
                    fmt::format("{} m is not a spacing above the lower corner at {} m; give a larger tank",
                                domain.max(a), low));

@@ -54,7 +54,9 @@ void check_crossings(const Polygon& polygon, const std::string& field, FieldChec
   }
 }
 
-void check_corners(const Polygon& polygon, bool convex, const std::string& field, FieldCheck& check) {
+// False when a corner is wrong in itself; its sides then meet others, which says nothing new.
+bool check_corners(const Polygon& polygon, bool convex, const std::string& field, FieldCheck& check) {
+  const std::size_t before_all = check.problems().size();
   const int n = polygon.vertex_size();
   for (int i = 0; i < n; ++i) {
     const Point& before = vertex(polygon, i + n - 1);
@@ -71,6 +73,7 @@ void check_corners(const Polygon& polygon, bool convex, const std::string& field
     else if (convex && turn < 0)
       check.report(corner, "the corner points inward; a body's polygon must be convex");
   }
+  return check.problems().size() == before_all;
 }
 
 }  // namespace
@@ -86,8 +89,7 @@ void check_polygon(const Polygon& polygon, bool convex, const std::string& field
     twice_area += cross(polygon.vertex(0), vertex(polygon, i), vertex(polygon, i + 1));
   if (twice_area == 0) return check.report(field, "has no area; give vertices that are not all in line");
   if (twice_area < 0) return check.report(field, "runs clockwise; give the vertices counter-clockwise");
-  check_corners(polygon, convex, field, check);
-  check_crossings(polygon, field, check);
+  if (check_corners(polygon, convex, field, check)) check_crossings(polygon, field, check);
 }
 
 void check_fluid(const FluidRegion& region, const std::string& field, FieldCheck& check) {

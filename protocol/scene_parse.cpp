@@ -36,7 +36,7 @@ std::string quoted(const std::string& text, int n) {
   return text.substr(begin + 1, text.find('"', begin + 1) - begin - 1);
 }
 
-// Turns what the parser says into problems. It reports an unknown field where the field's value begins.
+// Turns what the parser says into problems.
 class Collector : public pb::io::ErrorCollector {
  public:
   Collector(const std::string& text, std::string file, std::vector<Problem>& problems)
@@ -50,13 +50,16 @@ class Collector : public pb::io::ErrorCollector {
   }
 
  private:
-  static constexpr std::string_view kNoField = "has no field named";
-
   void report(int line, int column, const std::string& message) {
-    if (message.find(kNoField) == std::string::npos) {
-      problems_.push_back({{file_, line + 1, column + 1}, "", message});
-      return;
-    }
+    if (message.find("has no field named") != std::string::npos) return report_unknown(line, column, message);
+    // These come when the parser has passed the word they are about.
+    const bool passed = message.starts_with("Unknown enumeration") ||
+                        message.starts_with("Non-repeated field") || message.starts_with("Field \"");
+    const Location here{file_, line + 1, column + 1};
+    problems_.push_back({passed ? start_of(quoted(message, 0), line, column) : here, "", message});
+  }
+
+  void report_unknown(int line, int column, const std::string& message) {
     const std::string type = quoted(message, 0);
     const std::string name = quoted(message, 1);
     const pb::Descriptor* descriptor = Scene::descriptor()->file()->pool()->FindMessageTypeByName(type);
@@ -88,24 +91,25 @@ class Collector : public pb::io::ErrorCollector {
 // the others share its position.
 void collect_positions(const pb::Message& message, const pb::TextFormat::ParseInfoTree& tree,
                        const std::string& prefix, const std::string& file, Positions& positions) {
-  std::vector<const pb::FieldDescriptor*> fields;
-  message.GetReflection()->ListFields(message, &fields);
-  for (const auto* field : fields) {
+  const auto* reflection = message.GetReflection();
+  for (int f = 0; f < message.GetDescriptor()->field_count(); ++f) {
+    const auto* field = message.GetDescriptor()->field(f);
     const std::string path = prefix + field->name();
     const bool repeated = field->is_repeated();
-    const int count = repeated ? message.GetReflection()->FieldSize(message, field) : 1;
+    const int count = repeated ? reflection->FieldSize(message, field) : 1;
     pb::TextFormat::ParseLocation last;
     for (int i = 0; i < count; ++i) {
       const auto here = tree.GetLocation(field, repeated ? i : -1);
       if (here.line >= 0) last = here;
+      if (last.line < 0) continue;
       const Location location{file, last.line + 1, last.column + 1};
       const std::string entry = repeated ? fmt::format("{}[{}]", path, i) : path;
       positions.try_emplace(path, location);
       positions.try_emplace(entry, location);
       if (field->cpp_type() != pb::FieldDescriptor::CPPTYPE_MESSAGE) continue;
       const auto* nested = tree.GetTreeForNested(field, repeated ? i : -1);
-      const auto& child = repeated ? message.GetReflection()->GetRepeatedMessage(message, field, i)
-                                   : message.GetReflection()->GetMessage(message, field);
+      const auto& child = repeated ? reflection->GetRepeatedMessage(message, field, i)
+                                   : reflection->GetMessage(message, field);
       if (nested != nullptr) collect_positions(child, *nested, entry + ".", file, positions);
     }
   }
