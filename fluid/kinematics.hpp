@@ -7,7 +7,7 @@ namespace sluice::fluid {
 // Motion of one body over a step, as the solver needs it. World frame, SI. In two dimensions only
 // x, y and rotation about z are read.
 struct Kinematics {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // of the centre of mass, end of the step
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               // of the centre of mass, end of the step
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // end of the step
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               // mean over the step
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();       // mean over the step

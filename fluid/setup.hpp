@@ -21,16 +21,18 @@ struct Formulation {
   double courant = 0.4;                // dt (c0 + v_max) / h
 };
 
-// Fluid particles at the start, all of one mass.
+// Fluid particles at the start, all of one volume. Mass is volume times the density that belongs to the
+// pressure: particles of one mass on a lattice would not be at rest, since their volumes would not fill it.
 struct FluidParticles {
   std::vector<Eigen::Vector3d> position;  // [m]
   std::vector<Eigen::Vector3d> velocity;  // [m/s]
-  std::vector<double> pressure;           // [Pa]; sets the density by the equation of state, CF (65)
-  double mass = 0;                        // [kg], per metre of depth in 2D
+  std::vector<double> pressure;           // [Pa]; sets the density by the equation of state, CF (64)
+  double volume = 0;                      // [m^3], [m^2] in 2D
 };
 
 // Boundary particles of one body, or of the walls, in the body's frame. A particle of a thin plate belongs to
-// one face and acts only on fluid in front of it: outward of the plane through face_point with normal face_normal.
+// one face and acts only on fluid in front of it: outward of the plane through face_point with normal
+// face_normal.
 struct Boundary {
   std::vector<Eigen::Vector3d> position;  // [m]
   std::vector<double> volume;             // [m^3], [m^2] in 2D
@@ -48,7 +50,7 @@ struct Setup {
   Liquid liquid;
   Formulation formulation;
   FluidParticles fluid;
-  Boundary walls;                // at rest, world frame
+  Boundary walls;                   // at rest, world frame
   bool measure_wall_force = false;  // the walls' wrench costs a sweep over wall particles near the fluid
   std::vector<Boundary> bodies;
   int threads = 1;

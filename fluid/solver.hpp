@@ -25,8 +25,8 @@ struct Diagnostics {
   double boundary_work = 0;  // done on the fluid by moving boundaries since the start [J]
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();          // [kg m/s]
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  // about the origin [kg m^2/s]
-  double max_speed = 0;        // [m/s]
-  double max_compression = 0;  // max |rho/rho0 - 1|
+  double max_speed = 0;                                        // [m/s]
+  double max_compression = 0;                                  // max |rho/rho0 - 1|
 };
 
 // One liquid, walls and moving bodies, stepped explicitly. Holds no global state.

@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fluid/sampling.hpp"
+
+namespace sluice::fluid {
+
+namespace {
+
+// A flat face: its points are origin + a e1 + b e2 with 0 <= a <= length1, 0 <= b <= length2; layers go along
+// -normal.
+struct FlatFace {
+  Eigen::Vector3d origin, e1, e2, normal;
+  double length1, length2;  // length2 is 0 in two dimensions
+};
+
+std::vector<FlatFace> edges(const std::vector<Eigen::Vector2d>& vertices) {
+  std::vector<FlatFace> faces;
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    const Eigen::Vector2d a = vertices[k], b = vertices[(k + 1) % vertices.size()];
+    const Eigen::Vector2d t = (b - a).normalized();
+    faces.push_back({{a.x(), a.y(), 0}, {t.x(), t.y(), 0}, {0, 0, 0}, {t.y(), -t.x(), 0}, (b - a).norm(), 0});
+  }
+  return faces;
+}
+
+std::vector<FlatFace> faces_of(const BoxShape& box, int dimension) {
+  const Eigen::Vector3d h = box.half_size;
+  if (dimension == 2) return edges({{-h.x(), -h.y()}, {h.x(), -h.y()}, {h.x(), h.y()}, {-h.x(), h.y()}});
+  std::vector<FlatFace> faces;
+  for (int a = 0; a < 3; ++a)
+    for (const double side : {-1.0, 1.0}) {
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      Eigen::Vector3d origin = -h;
+      origin[a] = side * h[a];
+      faces.push_back({origin, Eigen::Vector3d::Unit(b), Eigen::Vector3d::Unit(c),
+                       side * Eigen::Vector3d::Unit(a), 2 * h[b], 2 * h[c]});
+    }
+  return faces;
+}
+
+std::vector<FlatFace> faces_of(const PolygonShape& polygon, int) {
+  return edges(polygon.vertices);
+}
+
+// Calls visit(position, volume) for the points of the face's layers.
+template <typename Visit>
+void for_layers(const FlatFace& face, double spacing, int layers, const Visit& visit) {
+  const int n1 = std::max(1, static_cast<int>(std::lround(face.length1 / spacing)));
+  const int n2 = std::max(1, static_cast<int>(std::lround(face.length2 / spacing)));
+  const double d1 = face.length1 / n1, d2 = face.length2 / n2;
+  for (int l = 0; l < layers; ++l)
+    for (int b = 0; b < n2; ++b)
+      for (int a = 0; a < n1; ++a)
+        visit(face.origin + (a + 0.5) * d1 * face.e1 + (b + 0.5) * d2 * face.e2 -
+                  (l + 0.5) * spacing * face.normal,
+              d1 * (face.length2 > 0 ? d2 : 1.0) * spacing);
+}
+
+// Every face with layers of its own, which may reach through the plate: only fluid in front of the face sees
+// them.
+Boundary thin_plate(const std::vector<FlatFace>& faces, double spacing, int layers) {
+  Boundary plate;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    plate.faces.push_back({faces[f].origin, faces[f].normal});
+    for_layers(faces[f], spacing, layers, [&](const Eigen::Vector3d& x, double volume) {
+      plate.position.push_back(x);
+      plate.volume.push_back(volume);
+      plate.face.push_back(static_cast<std::int32_t>(f));
+    });
+  }
+  return plate;
+}
+
+// Layers of a thick polygon: a point belongs to the face it is nearest to, which mitres the corners.
+Boundary sample_thick(const PolygonShape& polygon, double spacing, double support, int layers) {
+  Boundary body;
+  const std::vector<FlatFace> faces = edges(polygon.vertices);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for_layers(faces[f], spacing, layers, [&](const Eigen::Vector3d& x, double volume) {
+      const double own = (x - faces[f].origin).dot(faces[f].normal);
+      for (std::size_t other = 0; other < faces.size(); ++other) {
+        const double d = (x - faces[other].origin).dot(faces[other].normal);
+        if (d > own || (d == own && other < f)) return;
+      }
+      if (own < -support) return;
+      body.position.push_back(x);
+      body.volume.push_back(volume);
+    });
+  return body;
+}
+
+// A box as a lattice of cells that fit it, hollow where no fluid reaches.
+Boundary sample_thick(const BoxShape& box, double spacing, int layers, int dimension) {
+  std::array<int, 3> count{1, 1, 1};
+  Eigen::Vector3d width = Eigen::Vector3d::Ones();
+  for (int a = 0; a < dimension; ++a) {
+    count[a] = std::max(1, static_cast<int>(std::lround(2 * box.half_size[a] / spacing)));
+    width[a] = 2 * box.half_size[a] / count[a];
+  }
+  Boundary body;
+  for (int c = 0; c < count[2]; ++c)
+    for (int b = 0; b < count[1]; ++b)
+      for (int a = 0; a < count[0]; ++a) {
+        const std::array<int, 3> cell{a, b, c};
+        bool shell = false;
+        Eigen::Vector3d x = Eigen::Vector3d::Zero();
+        for (int k = 0; k < dimension; ++k) {
+          shell = shell || std::min(cell[k], count[k] - 1 - cell[k]) < layers;
+          x[k] = -box.half_size[k] + (cell[k] + 0.5) * width[k];
+        }
+        if (!shell) continue;
+        body.position.push_back(x);
+        body.volume.push_back(width.prod());
+      }
+  return body;
+}
+
+// Points of a circle, or of a sphere by the golden-angle spiral (A. Gonzalez, Math. Geosci. 42, 2010).
+std::vector<Eigen::Vector3d> shell_points(double radius, int count, int dimension) {
+  const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  std::vector<Eigen::Vector3d> points;
+  for (int k = 0; k < count; ++k) {
+    const double z = dimension == 3 ? 1.0 - (2.0 * k + 1.0) / count : 0.0;
+    const double angle = dimension == 3 ? golden_angle * k : 2.0 * std::numbers::pi * k / count;
+    const double rho = std::sqrt(1.0 - z * z);
+    points.push_back(radius * Eigen::Vector3d(rho * std::cos(angle), rho * std::sin(angle), z));
+  }
+  return points;
+}
+
+double ball_volume(double radius, int dimension) {
+  const double r = std::max(radius, 0.0);
+  return dimension == 2 ? std::numbers::pi * r * r : 4.0 / 3.0 * std::numbers::pi * r * r * r;
+}
+
+double ball_surface(double radius, int dimension) {
+  return dimension == 2 ? 2.0 * std::numbers::pi * radius : 4.0 * std::numbers::pi * radius * radius;
+}
+
+// Concentric shells, each with the volume of its layer.
+Boundary sample_ball(const BallShape& ball, double spacing, int layers, int dimension) {
+  Boundary body;
+  for (int l = 0; l < layers && ball.radius > l * spacing; ++l) {
+    const double outer = ball.radius - l * spacing, inner = outer - spacing;
+    const double radius = std::max(outer - 0.5 * spacing, 0.0);
+    const double cell = dimension == 2 ? spacing : spacing * spacing;
+    const int count = std::max(1, static_cast<int>(std::lround(ball_surface(radius, dimension) / cell)));
+    const double volume = (ball_volume(outer, dimension) - ball_volume(inner, dimension)) / count;
+    for (const Eigen::Vector3d& x : shell_points(count == 1 ? 0.0 : radius, count, dimension)) {
+      body.position.push_back(x);
+      body.volume.push_back(volume);
+    }
+  }
+  return body;
+}
+
+}  // namespace
+
+Boundary sample_body(const Shape& shape, double spacing, double support, int dimension) {
+  const int layers = static_cast<int>(std::ceil(support / spacing - 1e-9));
+  if (const auto* ball = std::get_if<BallShape>(&shape))
+    return sample_ball(*ball, spacing, layers, dimension);
+  const bool thin = thickness(shape, dimension) < 2.0 * support - 1e-9;
+  if (const auto* box = std::get_if<BoxShape>(&shape))
+    return thin ? thin_plate(faces_of(*box, dimension), spacing, layers)
+                : sample_thick(*box, spacing, layers, dimension);
+  const auto& polygon = std::get<PolygonShape>(shape);
+  return thin ? thin_plate(faces_of(polygon, dimension), spacing, layers)
+              : sample_thick(polygon, spacing, support, layers);
+}
+
+}  // namespace sluice::fluid

@@ -1,0 +1,79 @@
+#include "fluid/boundary.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace sluice::fluid {
+
+template <int Dim>
+BoundaryParticles<Dim>::BoundaryParticles(const Setup& setup) {
+  append(setup.walls, setup.liquid.density);
+  for (const Boundary& body : setup.bodies) append(body, setup.liquid.density);
+  first_.push_back(node_.size());
+  acceleration_.assign(size(), Vec<Dim>::Zero());
+  pressure.assign(size(), 0.0);
+  dilation.assign(size(), 1.0);
+  force.assign(size(), Vec<Dim>::Zero());
+  if (setup.liquid.viscosity > 0.0) stress.assign(size(), Mat<Dim>::Zero());
+}
+
+template <int Dim>
+void BoundaryParticles<Dim>::append(const Boundary& boundary, double rest_density) {
+  const auto body = static_cast<std::int32_t>(plate_of_body_.size());
+  const bool is_plate = !boundary.faces.empty();
+  plate_of_body_.push_back(is_plate ? static_cast<std::int32_t>(plates_.size()) : -1);
+  first_.push_back(node_.size());
+  Plate<Dim> plate{static_cast<std::size_t>(body), {}, Vec<Dim>::Zero(), 0.0};
+  for (std::size_t k = 0; k < boundary.position.size(); ++k) {
+    const Vec<Dim> x = narrow<Dim>(boundary.position[k]);
+    node_.push_back({x, Vec<Dim>::Zero(), boundary.volume[k], rest_density});
+    local_.push_back(x);
+    sampled_volume_.push_back(boundary.volume[k]);
+    body_.push_back(body);
+    face_.push_back(is_plate ? boundary.face[k] : -1);
+    plate.radius = std::max(plate.radius, x.norm());
+  }
+  if (!is_plate) return;
+  for (const Boundary::Face& face : boundary.faces) {
+    const Vec<Dim> normal = narrow<Dim>(face.normal);
+    plate.faces.push_back({normal, normal.dot(narrow<Dim>(face.point))});
+  }
+  plates_.push_back(plate);
+  local_faces_.push_back(boundary.faces);
+}
+
+template <int Dim>
+void BoundaryParticles<Dim>::move(std::span<const Kinematics> bodies) {
+  assert(bodies.size() + 1 == body_count());
+  for (std::size_t b = 0; b < bodies.size(); ++b) move_body(b + 1, bodies[b]);
+}
+
+// x = X + R x_local;  v = U + Omega x r;  a = A + dOmega/dt x r + Omega x (Omega x r)
+template <int Dim>
+void BoundaryParticles<Dim>::move_body(std::size_t body, const Kinematics& k) {
+  const Eigen::Matrix3d R = k.orientation.toRotationMatrix();
+  for (std::size_t w = first_[body]; w < first_[body + 1]; ++w) {
+    const Eigen::Vector3d r = R * widen<Dim>(local_[w]);
+    node_[w].x = narrow<Dim>(k.position + r);
+    node_[w].v = narrow<Dim>(k.velocity + k.angular_velocity.cross(r));
+    acceleration_[w] = narrow<Dim>(k.acceleration + k.angular_acceleration.cross(r) +
+                                   k.angular_velocity.cross(k.angular_velocity.cross(r)));
+  }
+  if (plate_of_body_[body] >= 0) move_plate(k, plates_[static_cast<std::size_t>(plate_of_body_[body])]);
+}
+
+template <int Dim>
+void BoundaryParticles<Dim>::move_plate(const Kinematics& k, Plate<Dim>& plate) {
+  const Eigen::Matrix3d R = k.orientation.toRotationMatrix();
+  const auto& faces = local_faces_[static_cast<std::size_t>(plate_of_body_[plate.body])];
+  plate.center = narrow<Dim>(k.position);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const Eigen::Vector3d normal = R * faces[f].normal;
+    plate.faces[f] = {narrow<Dim>(normal), normal.dot(k.position + R * faces[f].point)};
+  }
+}
+
+template class BoundaryParticles<2>;
+template class BoundaryParticles<3>;
+
+}  // namespace sluice::fluid

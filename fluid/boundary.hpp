@@ -1,0 +1,79 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/kinematics.hpp"
+#include "fluid/particles.hpp"
+#include "fluid/setup.hpp"
+
+namespace sluice::fluid {
+
+// A plane; in front of it where normal . x > offset.
+template <int Dim>
+struct Plane {
+  Vec<Dim> normal;
+  double offset;
+  [[nodiscard]] double distance(const Vec<Dim>& x) const { return normal.dot(x) - offset; }
+};
+
+// A body whose sides must not see each other, in its present pose: the intersection of the half-spaces
+// behind its faces.
+template <int Dim>
+struct Plate {
+  std::size_t body;
+  std::vector<Plane<Dim>> faces;
+  Vec<Dim> center;
+  double radius;  // of the ball around `center` that holds the plate's faces [m]
+};
+
+// All boundary particles: the walls first, then body after body. Walls are body 0, at rest; the scene's body
+// b is body b + 1 here.
+template <int Dim>
+class BoundaryParticles {
+ public:
+  explicit BoundaryParticles(const Setup& setup);
+
+  // Moves the particles of the bodies to the end of the step.
+  void move(std::span<const Kinematics> bodies);
+
+  [[nodiscard]] std::size_t size() const { return node_.size(); }
+  [[nodiscard]] std::vector<Node<Dim>>& node() { return node_; }
+  [[nodiscard]] const std::vector<Node<Dim>>& node() const { return node_; }
+  [[nodiscard]] const Vec<Dim>& acceleration(std::size_t w) const { return acceleration_[w]; }
+  [[nodiscard]] std::int32_t body(std::size_t w) const { return body_[w]; }
+  // Index into plates()[plate(w)].faces of a plate's particle; plate(w) is -1 for all others.
+  [[nodiscard]] std::int32_t face(std::size_t w) const { return face_[w]; }
+  [[nodiscard]] std::int32_t plate(std::size_t w) const { return plate_of_body_[body_[w]]; }
+  [[nodiscard]] const std::vector<Plate<Dim>>& plates() const { return plates_; }
+  [[nodiscard]] std::size_t body_count() const { return plate_of_body_.size(); }
+
+  // Volume as sampled [m^Dim]; node().volume follows the compression of the fluid near it.
+  [[nodiscard]] double sampled_volume(std::size_t w) const { return sampled_volume_[w]; }
+
+  // Extrapolated from the fluid every step.
+  std::vector<double> pressure;  // [Pa]
+  std::vector<Mat<Dim>> stress;  // viscous part [Pa]; empty without viscosity
+  std::vector<double> dilation;  // wetness times volume of the fluid near over its first volume
+  std::vector<Vec<Dim>> force;   // of the fluid on the particle [N]
+
+ private:
+  void append(const Boundary& boundary, double rest_density);
+  void move_body(std::size_t body, const Kinematics& kinematics);
+  void move_plate(const Kinematics& kinematics, Plate<Dim>& plate);
+
+  std::vector<Node<Dim>> node_;
+  std::vector<Vec<Dim>> local_;
+  std::vector<Vec<Dim>> acceleration_;
+  std::vector<double> sampled_volume_;
+  std::vector<std::int32_t> body_, face_;
+  std::vector<std::size_t> first_;  // of every body, and the end
+  std::vector<std::int32_t> plate_of_body_;
+  std::vector<Plate<Dim>> plates_;
+  std::vector<std::vector<Boundary::Face>> local_faces_;  // per plate
+};
+
+extern template class BoundaryParticles<2>;
+extern template class BoundaryParticles<3>;
+
+}  // namespace sluice::fluid

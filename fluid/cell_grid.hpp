@@ -1,0 +1,104 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "fluid/particles.hpp"
+
+namespace sluice::fluid {
+
+// Cubic cells over a box; items are filed by cell with a counting sort. Row-major, x fastest, so that the
+// cells of a row are consecutive and a neighbourhood is 3^(Dim-1) contiguous ranges.
+template <int Dim>
+class CellGrid {
+ public:
+  // The grid over the bounding box of the nodes, in cells of at least `cell` [m]; larger ones where there
+  // would be more than 4 cells per node.
+  CellGrid(const std::vector<Node<Dim>>& nodes, double cell) : cell_(cell) {
+    Vec<Dim> high = Vec<Dim>::Zero();
+    if (!nodes.empty()) low_ = high = nodes.front().x;
+    for (const Node<Dim>& node : nodes) {
+      low_ = low_.cwiseMin(node.x);
+      high = high.cwiseMax(node.x);
+    }
+    const double most = 4.0 * static_cast<double>(nodes.size()) + 1024.0;
+    while (((high - low_) / cell_).array().ceil().max(1.0).prod() > most) cell_ *= 2.0;
+    for (int a = 0; a < Dim; ++a) count_[a] = 1 + static_cast<std::int64_t>((high[a] - low_[a]) / cell_);
+  }
+
+  // Files the nodes: afterwards item() lists their indices cell by cell, in rising order within a cell.
+  void file(const std::vector<Node<Dim>>& nodes) {
+    const auto cells = static_cast<std::size_t>(
+        std::accumulate(count_.begin(), count_.end(), std::int64_t{1}, std::multiplies<>()));
+    std::vector<std::uint32_t> cell_of(nodes.size());
+    begin_.assign(cells + 1, 0);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      cell_of[i] = static_cast<std::uint32_t>(index(coordinates(nodes[i].x)));
+      ++begin_[cell_of[i] + 1];
+    }
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    item_.resize(nodes.size());
+    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::size_t i = 0; i < nodes.size(); ++i) item_[next[cell_of[i]]++] = static_cast<std::uint32_t>(i);
+  }
+
+  [[nodiscard]] const std::vector<std::uint32_t>& item() const { return item_; }
+
+  // Calls visit(first, last), positions in item(), for every row of cells that meets the ball's bounding box.
+  // A ball far outside the grid meets none.
+  template <typename Visit>
+  void for_rows_near(const Vec<Dim>& x, double radius, const Visit& visit) const {
+    Coordinates from, to;
+    for (int a = 0; a < Dim; ++a) {
+      const double lower = std::floor((x[a] - radius - low_[a]) / cell_);
+      const double upper = std::floor((x[a] + radius - low_[a]) / cell_);
+      const auto last = static_cast<double>(count_[a] - 1);
+      if (!(upper >= 0.0 && lower <= last)) return;
+      from[a] = static_cast<std::int64_t>(std::max(lower, 0.0));
+      to[a] = static_cast<std::int64_t>(std::min(upper, last));
+    }
+    Coordinates c = from;
+    if constexpr (Dim == 2) {
+      for (c[1] = from[1]; c[1] <= to[1]; ++c[1]) visit_row(c, to[0], visit);
+    } else {
+      for (c[2] = from[2]; c[2] <= to[2]; ++c[2])
+        for (c[1] = from[1]; c[1] <= to[1]; ++c[1]) visit_row(c, to[0], visit);
+    }
+  }
+
+ private:
+  using Coordinates = std::array<std::int64_t, Dim>;
+
+  // Not-a-number goes to cell 0, where it harms nobody until the stability guard sees it.
+  [[nodiscard]] Coordinates coordinates(const Vec<Dim>& x) const {
+    Coordinates c;
+    for (int a = 0; a < Dim; ++a) {
+      const double k = (x[a] - low_[a]) / cell_;
+      c[a] = k > 0.0 ? static_cast<std::int64_t>(std::min(k, static_cast<double>(count_[a] - 1))) : 0;
+    }
+    return c;
+  }
+
+  [[nodiscard]] std::int64_t index(const Coordinates& c) const {
+    std::int64_t i = c[Dim - 1];
+    for (int a = Dim - 2; a >= 0; --a) i = i * count_[a] + c[a];
+    return i;
+  }
+
+  template <typename Visit>
+  void visit_row(const Coordinates& c, std::int64_t last, const Visit& visit) const {
+    const auto row = static_cast<std::size_t>(index(c));
+    visit(begin_[row], begin_[row + static_cast<std::size_t>(last - c[0]) + 1]);
+  }
+
+  double cell_;
+  Vec<Dim> low_ = Vec<Dim>::Zero();
+  Coordinates count_{};
+  std::vector<std::uint32_t> begin_, item_;
+};
+
+}  // namespace sluice::fluid

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <span>
+
+#include "fluid/boundary.hpp"
+#include "fluid/model.hpp"
+#include "fluid/particles.hpp"
+
+namespace sluice::fluid {
+
+// Force of boundary particle w, as a quadrature point with g = 0 and the lattice's G, on fluid particle i:
+//   -V_i V_w W sigma_w G x_iw   (README.md, "Boundary particles")
+template <int Dim>
+Vec<Dim> boundary_traction(const Model<Dim>& model, const BoundaryParticles<Dim>& boundary, std::size_t w,
+                           double volume_i, double W, const Vec<Dim>& x_iw) {
+  const double scale = volume_i * boundary.sampled_volume(w) * W * model.boundary_G;
+  Vec<Dim> force = scale * boundary.pressure[w] * x_iw;
+  if (!boundary.stress.empty()) force -= scale * (boundary.stress[w] * x_iw);
+  return force;
+}
+
+// Penetration guard: a spring between a fluid and a boundary particle nearer than 3/4 of a spacing, which on
+// a lattice they never are. Takes the place of the boundary forces CF (113), with the scale m c0^2/dx^2 that
+// the paper leaves open and without its velocity switch, so that it conserves energy: a single particle that
+// drifts into the wall between its neighbours changes no divergence, and so no pressure would stop it. Force
+// on the particle at the head of x_iw.
+template <int Dim>
+Vec<Dim> guard_force(const Model<Dim>& model, const Vec<Dim>& x_iw) {
+  const double r2 = x_iw.squaredNorm();
+  if (r2 >= model.guard_range * model.guard_range) return Vec<Dim>::Zero();
+  const double r = std::sqrt(r2 + model.tiny_r2);
+  return model.guard_stiffness * (model.guard_range / r - 1.0) * x_iw;
+}
+
+// Sweep 2: what the neighbours k of particle i do to it. The internal force is CF (43) with nodal quadrature,
+//   f_i = -sum_k V_k sigma_k grad N_i(x_k) = -V_i sum_k W_ik (s_k + S_k x_ik),
+// with s and S from sweep 1; k runs over the fluid, i itself (x_ii = 0) and the boundary.
+template <int Dim>
+class ForceSweep {
+ public:
+  ForceSweep(const Model<Dim>& model, const Particles<Dim>& fluid, std::size_t i)
+      : model_(model), fluid_(fluid), node_(fluid.node[i]), source_(fluid.source[i]) {
+    internal_ = model.kernel.at_zero() * source_.s;
+  }
+
+  void gather_fluid(std::span<const std::uint32_t> neighbors) {
+    for (const std::uint32_t k : neighbors) add_fluid(fluid_.node[k], fluid_.source[k]);
+  }
+
+  void gather_boundary(std::span<const std::uint32_t> neighbors, const BoundaryParticles<Dim>& boundary) {
+    for (const std::uint32_t w : neighbors) {
+      const Vec<Dim> x_iw = node_.x - boundary.node()[w].x;
+      const double W = model_.kernel.value(x_iw.squaredNorm());
+      traction_ += boundary_traction(model_, boundary, w, node_.volume, W, x_iw) + guard_force(model_, x_iw);
+    }
+  }
+
+  [[nodiscard]] Vec<Dim> force() const {
+    return traction_ - node_.volume * internal_ + model_.artificial_viscosity * node_.volume * viscous_;
+  }
+  [[nodiscard]] double density_rate() const { return model_.density_diffusion * diffusion_; }
+
+ private:
+  void add_fluid(const Node<Dim>& k, const Source<Dim>& from) {
+    const Vec<Dim> x_ik = node_.x - k.x;
+    const double r2 = x_ik.squaredNorm();
+    const auto [W, F] = model_.kernel.value_and_slope(r2);
+    internal_ += W * (from.s + from.S * x_ik);
+
+    // Artificial viscosity on what a linear velocity field does not explain (README.md, "Dissipation"):
+    //   alpha h c0 rho0 V_i V_k [v_ki . x_ki - x_ki . (d_i + d_k)/2 x_ki] / r^2 F x_ki
+    const double VF = k.volume * F;
+    const double unexplained =
+        (node_.v - k.v).dot(x_ik) - 0.5 * x_ik.dot((source_.strain + from.strain) * x_ik);
+    viscous_ -= VF * unexplained / (r2 + model_.tiny_r2) * x_ik;
+
+    // Density diffusion on what a linear density field does not explain (M. Antuono et al., Comput. Phys.
+    // Commun. 181, 2010, eq. 6): 2 delta h c0 sum_k V_k F [rho_ki - (grad rho_i + grad rho_k)/2 . x_ki]
+    diffusion_ += VF * (k.rho - node_.rho + 0.5 * (source_.grad_rho + from.grad_rho).dot(x_ik));
+  }
+
+  const Model<Dim>& model_;
+  const Particles<Dim>& fluid_;
+  const Node<Dim>& node_;
+  const Source<Dim>& source_;
+  Vec<Dim> internal_ = Vec<Dim>::Zero();
+  Vec<Dim> traction_ = Vec<Dim>::Zero();
+  Vec<Dim> viscous_ = Vec<Dim>::Zero();
+  double diffusion_ = 0;
+};
+
+// The exact reaction: what the fluid particles near boundary particle w do to it. Fluid particle i
+// distributes its stress to w like to any neighbour, and takes w's traction with the opposite sign.
+template <int Dim>
+Vec<Dim> reaction(const Model<Dim>& model, const Particles<Dim>& fluid,
+                  std::span<const std::uint32_t> neighbors, std::size_t w,
+                  const BoundaryParticles<Dim>& boundary) {
+  const Node<Dim>& node = boundary.node()[w];
+  Vec<Dim> force = Vec<Dim>::Zero();
+  for (const std::uint32_t i : neighbors) {
+    const Vec<Dim> x_wi = node.x - fluid.node[i].x;
+    const double W = model.kernel.value(x_wi.squaredNorm());
+    force -= node.volume * W * (fluid.source[i].s + fluid.source[i].S * x_wi);
+    force -= boundary_traction<Dim>(model, boundary, w, fluid.node[i].volume, W, -x_wi);
+    force -= guard_force<Dim>(model, -x_wi);
+  }
+  return force;
+}
+
+}  // namespace sluice::fluid

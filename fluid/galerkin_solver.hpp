@@ -1,0 +1,56 @@
+#pragma once
+
+#include "fluid/boundary.hpp"
+#include "fluid/model.hpp"
+#include "fluid/neighbor_search.hpp"
+#include "fluid/parallel.hpp"
+#include "fluid/particles.hpp"
+#include "fluid/solver.hpp"
+
+namespace sluice::fluid {
+
+// The Galerkin MLS scheme with nodal quadrature in Dim dimensions. The order inside a step matters: density
+// advanced with velocities older than the positions is unstable.
+template <int Dim>
+class GalerkinSolver final : public Solver {
+ public:
+  explicit GalerkinSolver(const Setup& setup);
+
+  void start(std::span<const Kinematics> bodies) override;
+  void step(double dt, std::span<const Kinematics> bodies) override;
+
+  [[nodiscard]] std::span<const Wrench> wrenches() const override;
+  [[nodiscard]] Wrench wall_wrench() const override { return wrench_[0]; }
+  [[nodiscard]] double largest_step(double max_speed) const override;
+  [[nodiscard]] Snapshot snapshot() const override;
+  [[nodiscard]] Diagnostics diagnostics() const override;
+
+ private:
+  // The stages of a step, in their order.
+  void kick(double dt);
+  void drift(double dt);
+  void move_boundary(std::span<const Kinematics> bodies);
+  void compute_gradients();
+  void advance_density(double dt);
+  void compute_stress();
+  void extrapolate_to_boundary();
+  void compute_forces();
+  void collect_wrenches();
+  void update_volumes();
+
+  [[nodiscard]] double boundary_power() const;
+
+  Model<Dim> model_;
+  Parallel parallel_;
+  Particles<Dim> fluid_;
+  BoundaryParticles<Dim> boundary_;
+  NeighborSearch<Dim> search_;
+  std::vector<Mat<Dim>> velocity_gradient_;
+  std::vector<Kinematics> bodies_;
+  std::vector<Wrench> wrench_;  // walls, then the bodies
+  bool measure_wall_force_;
+  double courant_;
+  double boundary_work_ = 0;
+};
+
+}  // namespace sluice::fluid

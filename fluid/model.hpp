@@ -1,0 +1,47 @@
+#pragma once
+
+#include "fluid/equation_of_state.hpp"
+#include "fluid/kernel.hpp"
+#include "fluid/lattice.hpp"
+#include "fluid/setup.hpp"
+
+namespace sluice::fluid {
+
+// The constants of a run, derived once from the setup.
+template <int Dim>
+struct Model {
+  explicit Model(const Setup& setup)
+      : spacing(setup.spacing),
+        h(setup.formulation.smoothing * setup.spacing),
+        kernel(h),
+        eos(setup.liquid.density, setup.liquid.sound_speed),
+        gravity(narrow<Dim>(setup.gravity)),
+        mu(setup.liquid.viscosity),
+        density_diffusion(2.0 * setup.formulation.density_diffusion * h * setup.liquid.sound_speed),
+        artificial_viscosity(setup.formulation.artificial_viscosity * h * setup.liquid.sound_speed *
+                             setup.liquid.density),
+        moment_floor(setup.formulation.moment_floor * lattice_moment<Dim>(kernel, setup.spacing)),
+        tiny_r2(1e-4 * h * h),
+        guard_range(0.75 * setup.spacing),
+        guard_stiffness(setup.liquid.density * setup.fluid.volume * setup.liquid.sound_speed *
+                        setup.liquid.sound_speed / (setup.spacing * setup.spacing)),
+        first_volume(setup.fluid.volume),
+        boundary_G(1.0 / lattice_moment<Dim>(kernel, setup.spacing)) {}
+
+  double spacing;  // dx [m]
+  double h;        // smoothing length [m]
+  WendlandC2<Dim> kernel;
+  EquationOfState eos;
+  Vec<Dim> gravity;             // [m/s^2]
+  double mu;                    // [Pa s]
+  double density_diffusion;     // 2 delta h c0 [m^2/s]
+  double artificial_viscosity;  // alpha h c0 rho0 [Pa s]
+  double moment_floor;          // [m^2]
+  double tiny_r2;               // (h/100)^2 [m^2], keeps coincident particles from a division by zero
+  double guard_range;           // of the penetration guard [m]; see force_sweep.hpp
+  double guard_stiffness;       // m c0^2 / dx^2 [N/m]
+  double first_volume;          // of every fluid particle [m^Dim]
+  double boundary_G;            // G of boundary particles, the lattice's, times identity [1/m^2]
+};
+
+}  // namespace sluice::fluid

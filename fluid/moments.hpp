@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Eigenvalues>
+
+#include "fluid/types.hpp"
+
+namespace sluice::fluid {
+
+// Sums over the neighbours j of i, itself included, of the weight V_j W_ij:
+//   m0 = sum V W,  m1 = sum V W x_ji,  m2 = sum V W x_ji (x) x_ji,  x_ji = x_j - x_i.
+template <int Dim>
+struct Moments {
+  double m0 = 0;
+  Vec<Dim> m1 = Vec<Dim>::Zero();
+  Mat<Dim> m2 = Mat<Dim>::Zero();
+
+  void add(double weight, const Vec<Dim>& x_ji) {
+    m0 += weight;
+    m1 += weight * x_ji;
+    m2 += weight * x_ji * x_ji.transpose();
+  }
+};
+
+// The linear moving-least-squares fit at a particle, CF (9) and (14) in centred form. The gradient of the
+// local fit (diffuse derivative) and the shape function of neighbour j are
+//   grad N_j(x_i) = V_j W_ij (g + G x_ji),      N_j(x_i) = V_j W_ij (1/m0 - m1/m0 . (g + G x_ji)).
+// With C = m2 - m1 (x) m1 / m0 the exact fit has G = C^-1 and g = -G m1/m0. Then sum N = 1, sum N x = x,
+// sum grad N = 0 and sum x (x) grad N = I, CF (16)-(17).
+template <int Dim>
+struct Fit {
+  Vec<Dim> g;
+  Mat<Dim> G;
+  // An eigenvalue of C was below the floor: too few neighbours for a linear fit (spray).
+  bool floored;
+};
+
+// Inverse of a symmetric matrix by its adjugate; Dim is 2 or 3.
+template <int Dim>
+Mat<Dim> symmetric_inverse(const Mat<Dim>& a) {
+  if constexpr (Dim == 2) {
+    const double det = a(0, 0) * a(1, 1) - a(0, 1) * a(0, 1);
+    Mat<2> inverse;
+    inverse << a(1, 1) / det, -a(0, 1) / det, -a(0, 1) / det, a(0, 0) / det;
+    return inverse;
+  } else {
+    const double c00 = a(1, 1) * a(2, 2) - a(1, 2) * a(1, 2);
+    const double c01 = a(0, 2) * a(1, 2) - a(0, 1) * a(2, 2);
+    const double c02 = a(0, 1) * a(1, 2) - a(0, 2) * a(1, 1);
+    const double det = a(0, 0) * c00 + a(0, 1) * c01 + a(0, 2) * c02;
+    const double c11 = a(0, 0) * a(2, 2) - a(0, 2) * a(0, 2);
+    const double c12 = a(0, 1) * a(0, 2) - a(0, 0) * a(1, 2);
+    const double c22 = a(0, 0) * a(1, 1) - a(0, 1) * a(0, 1);
+    Mat<3> inverse;
+    inverse << c00, c01, c02, c01, c11, c12, c02, c12, c22;
+    return inverse / det;
+  }
+}
+
+// Whether every eigenvalue of the symmetric `a` is above `bound`: Sylvester's criterion on a - bound I.
+template <int Dim>
+bool eigenvalues_above(const Mat<Dim>& a, double bound) {
+  const Mat<Dim> b = a - bound * Mat<Dim>::Identity();
+  const double minor2 = b(0, 0) * b(1, 1) - b(0, 1) * b(0, 1);
+  if (b(0, 0) <= 0.0 || minor2 <= 0.0) return false;
+  if constexpr (Dim == 3) return b.determinant() > 0.0;
+  return true;
+}
+
+// The fit from the moments, with the eigenvalues of C raised to at least `floor` [the unit of C]. Whatever G
+// becomes, g = -G m1/m0 keeps sum grad N = 0 (linear momentum), and G keeps the eigenvectors of C (a
+// pressure then exerts no net moment: angular momentum).
+template <int Dim>
+Fit<Dim> fit(const Moments<Dim>& m, double floor) {
+  const Mat<Dim> C = m.m2 - m.m1 * m.m1.transpose() / m.m0;
+  Fit<Dim> f;
+  f.floored = !eigenvalues_above<Dim>(C, floor);
+  if (f.floored) {
+    // The iterative solver: square roots only, so its bits do not depend on the processor's libm.
+    const Eigen::SelfAdjointEigenSolver<Mat<Dim>> eigen(C);
+    const Vec<Dim> inverse = eigen.eigenvalues().cwiseMax(floor).cwiseInverse();
+    f.G = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+  } else {
+    f.G = symmetric_inverse<Dim>(C);
+  }
+  f.g = -f.G * m.m1 / m.m0;
+  return f;
+}
+
+}  // namespace sluice::fluid

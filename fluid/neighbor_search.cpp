@@ -1,0 +1,153 @@
+#include "fluid/neighbor_search.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "fluid/thin_plate.hpp"
+
+namespace sluice::fluid {
+
+namespace {
+
+// Counts, then fills: for_neighbors(i, emit) must call emit(j) for the neighbours of i in the same order both
+// times.
+template <typename ForNeighbors>
+NeighborList make_list(std::size_t count, const Parallel& parallel, const ForNeighbors& for_neighbors) {
+  NeighborList list;
+  list.begin.assign(count + 1, 0);
+  parallel.for_each(count, [&](std::size_t i) {
+    std::uint64_t n = 0;
+    for_neighbors(i, [&n](std::uint32_t) { ++n; });
+    list.begin[i + 1] = n;
+  });
+  std::partial_sum(list.begin.begin(), list.begin.end(), list.begin.begin());
+  list.index.resize(list.begin.back());
+  parallel.for_each(count, [&](std::size_t i) {
+    std::uint64_t at = list.begin[i];
+    for_neighbors(i, [&](std::uint32_t j) { list.index[at++] = j; });
+  });
+  return list;
+}
+
+template <typename T>
+void permute(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
+  std::vector<T> sorted(values.size());
+  for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = values[order[k]];
+  values.swap(sorted);
+}
+
+// Sorts what a particle carries from one step into the next.
+template <int Dim>
+void sort(Particles<Dim>& fluid, const std::vector<std::uint32_t>& order) {
+  permute(fluid.mass, order);
+  permute(fluid.node, order);
+  permute(fluid.acceleration, order);
+  permute(fluid.density_rate, order);
+  permute(fluid.id, order);
+}
+
+// Fluid particles that a plate's rule can concern, per plate.
+template <int Dim>
+std::vector<std::uint8_t> near_any_plate(const Particles<Dim>& fluid, const std::vector<Plate<Dim>>& plates,
+                                         double reach) {
+  std::vector<std::uint8_t> near(plates.empty() ? 0 : fluid.size(), 0);
+  for (std::size_t i = 0; i < near.size(); ++i)
+    for (const Plate<Dim>& plate : plates)
+      if (is_near(plate, fluid.node[i].x, reach)) near[i] = 1;
+  return near;
+}
+
+template <int Dim>
+bool separated(const std::vector<Plate<Dim>>& plates, const Vec<Dim>& x, const Vec<Dim>& y) {
+  return std::any_of(plates.begin(), plates.end(), [&](const auto& plate) { return separates(plate, x, y); });
+}
+
+// Whether fluid at x and boundary particle w act on each other.
+template <int Dim>
+bool visible(const BoundaryParticles<Dim>& boundary, std::size_t w, const Vec<Dim>& x) {
+  const std::int32_t plate = boundary.plate(w);
+  return plate < 0 || sees_face(boundary.plates()[static_cast<std::size_t>(plate)],
+                                static_cast<std::size_t>(boundary.face(w)), x);
+}
+
+}  // namespace
+
+template <int Dim>
+void NeighborSearch<Dim>::update(Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
+                                 const Parallel& parallel) {
+  if (is_stale(fluid, boundary, parallel)) rebuild(fluid, boundary, parallel);
+}
+
+template <int Dim>
+bool NeighborSearch<Dim>::is_stale(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
+                                   const Parallel& parallel) const {
+  if (fluid_at_build_.size() != fluid.size() || rebuilds_ == 0) return true;
+  const double fluid2 = parallel.max(
+      fluid.size(), [&](std::size_t i) { return (fluid.node[i].x - fluid_at_build_[i]).squaredNorm(); });
+  double boundary2 = 0;
+  for (std::size_t w = 0; w < boundary.size(); ++w)
+    boundary2 = std::max(boundary2, (boundary.node()[w].x - boundary_at_build_[w]).squaredNorm());
+  // Two particles come nearer by at most the sum of their displacements.
+  const double fluid_moved = std::sqrt(fluid2), boundary_moved = std::sqrt(boundary2);
+  return !(fluid_moved + std::max(fluid_moved, boundary_moved) < skin_);
+}
+
+template <int Dim>
+void NeighborSearch<Dim>::rebuild(Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
+                                  const Parallel& parallel) {
+  const double reach = support_ + skin_;
+  CellGrid<Dim> cells(fluid.node, reach);
+  cells.file(fluid.node);
+  sort(fluid, cells.item());
+  // Now particle k of the sorted order is item k of the grid.
+
+  const std::vector<std::uint8_t> near = near_any_plate(fluid, boundary.plates(), reach);
+  const auto cut = [&](std::size_t i, std::size_t j) {
+    return !near.empty() && near[i] && near[j] &&
+           separated(boundary.plates(), fluid.node[i].x, fluid.node[j].x);
+  };
+  fluid_ = make_list(fluid.size(), parallel, [&](std::size_t i, const auto& emit) {
+    const Vec<Dim>& x = fluid.node[i].x;
+    cells.for_rows_near(x, reach, [&](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t j = first; j < last; ++j)
+        if (j != i && (fluid.node[j].x - x).squaredNorm() < reach * reach && !cut(i, j)) emit(j);
+    });
+  });
+
+  const NeighborList all = make_list(boundary.size(), parallel, [&](std::size_t w, const auto& emit) {
+    const Vec<Dim>& x = boundary.node()[w].x;
+    cells.for_rows_near(x, reach, [&](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t j = first; j < last; ++j)
+        if ((fluid.node[j].x - x).squaredNorm() < reach * reach && visible(boundary, w, fluid.node[j].x))
+          emit(j);
+    });
+  });
+  active_.clear();
+  active_list_.begin.assign(1, 0);
+  for (std::size_t w = 0; w < boundary.size(); ++w) {
+    if (all.of(w).empty()) continue;
+    active_.push_back(static_cast<std::uint32_t>(w));
+    active_list_.begin.push_back(all.begin[w + 1]);
+  }
+  active_list_.index = all.index;
+
+  // The transpose: boundary particles of every fluid particle, in rising order.
+  boundary_.begin.assign(fluid.size() + 1, 0);
+  for (const std::uint32_t j : all.index) ++boundary_.begin[j + 1];
+  std::partial_sum(boundary_.begin.begin(), boundary_.begin.end(), boundary_.begin.begin());
+  boundary_.index.resize(all.index.size());
+  std::vector<std::uint64_t> next(boundary_.begin.begin(), boundary_.begin.end() - 1);
+  for (const std::uint32_t w : active_)
+    for (const std::uint32_t j : all.of(w)) boundary_.index[next[j]++] = w;
+
+  fluid_at_build_.resize(fluid.size());
+  for (std::size_t i = 0; i < fluid.size(); ++i) fluid_at_build_[i] = fluid.node[i].x;
+  boundary_at_build_.resize(boundary.size());
+  for (std::size_t w = 0; w < boundary.size(); ++w) boundary_at_build_[w] = boundary.node()[w].x;
+  ++rebuilds_;
+}
+
+template class NeighborSearch<2>;
+template class NeighborSearch<3>;
+
+}  // namespace sluice::fluid

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fluid/boundary.hpp"
+#include "fluid/cell_grid.hpp"
+#include "fluid/parallel.hpp"
+#include "fluid/particles.hpp"
+
+namespace sluice::fluid {
+
+// Neighbours of every item in a compact list: those of item i are index[begin[i]] .. index[begin[i+1] - 1].
+struct NeighborList {
+  std::vector<std::uint64_t> begin;
+  std::vector<std::uint32_t> index;
+
+  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t i) const {
+    return {index.data() + begin[i], static_cast<std::size_t>(begin[i + 1] - begin[i])};
+  }
+};
+
+// Finds all pairs within the support plus a skin, and keeps the lists until a particle may have crossed the
+// skin. Pairs that a thin plate separates are left out here, so that the sweeps need not know.
+template <int Dim>
+class NeighborSearch {
+ public:
+  NeighborSearch(double support, double skin) : support_(support), skin_(skin) {}
+
+  // Rebuilds the lists if motion demands, after sorting the fluid particles by cell. Cost of the check: one
+  // pass over the particles.
+  void update(Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary, const Parallel& parallel);
+
+  // Other fluid particles near a fluid particle.
+  [[nodiscard]] std::span<const std::uint32_t> fluid_near_fluid(std::size_t i) const { return fluid_.of(i); }
+  // Boundary particles near a fluid particle.
+  [[nodiscard]] std::span<const std::uint32_t> boundary_near_fluid(std::size_t i) const {
+    return boundary_.of(i);
+  }
+  // Boundary particles that have fluid near, and that fluid: entry a of the first is item a of the second.
+  [[nodiscard]] const std::vector<std::uint32_t>& active_boundary() const { return active_; }
+  [[nodiscard]] std::span<const std::uint32_t> fluid_near_active(std::size_t a) const {
+    return active_list_.of(a);
+  }
+
+  [[nodiscard]] std::uint64_t rebuilds() const { return rebuilds_; }
+
+ private:
+  [[nodiscard]] bool is_stale(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
+                              const Parallel& parallel) const;
+  void rebuild(Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary, const Parallel& parallel);
+
+  double support_, skin_;
+  std::vector<Vec<Dim>> fluid_at_build_, boundary_at_build_;
+  NeighborList fluid_, boundary_, active_list_;
+  std::vector<std::uint32_t> active_;
+  std::uint64_t rebuilds_ = 0;
+};
+
+extern template class NeighborSearch<2>;
+extern template class NeighborSearch<3>;
+
+}  // namespace sluice::fluid

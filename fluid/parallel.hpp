@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace sluice::fluid {
+
+// Loops over index ranges on a fixed number of threads. Every index is written by one thread and results
+// never depend on which: gather loops only. Sums are left to the caller, in a fixed order.
+class Parallel {
+ public:
+  explicit Parallel(int threads);
+  ~Parallel();
+  Parallel(const Parallel&) = delete;
+  Parallel& operator=(const Parallel&) = delete;
+
+  // Calls body(i) for i in 0 .. count-1.
+  template <typename Body>
+  void for_each(std::size_t count, const Body& body) const {
+    for_blocks(count, [&body](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) body(i);
+    });
+  }
+
+  // Largest value(i), at least 0. The maximum does not depend on the order.
+  template <typename Value>
+  [[nodiscard]] double max(std::size_t count, const Value& value) const {
+    return max_of_blocks(count, [&value](std::size_t begin, std::size_t end) {
+      double largest = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        const double candidate = value(i);
+        if (!(candidate <= largest)) largest = candidate;
+      }
+      return largest;
+    });
+  }
+
+ private:
+  using Block = std::function<void(std::size_t, std::size_t)>;
+  using BlockValue = std::function<double(std::size_t, std::size_t)>;
+  void for_blocks(std::size_t count, const Block& block) const;
+  [[nodiscard]] double max_of_blocks(std::size_t count, const BlockValue& block) const;
+
+  struct Arena;
+  std::unique_ptr<Arena> arena_;
+};
+
+}  // namespace sluice::fluid

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fluid/moments.hpp"
+#include "fluid/setup.hpp"
+#include "fluid/types.hpp"
+
+namespace sluice::fluid {
+
+// What a neighbour loop reads of any particle, fluid or boundary; one cache line in two dimensions.
+template <int Dim>
+struct Node {
+  Vec<Dim> x = Vec<Dim>::Zero();  // [m]
+  Vec<Dim> v = Vec<Dim>::Zero();  // [m/s]
+  double volume = 0;              // V = m/rho [m^Dim]
+  double rho = 0;                 // [kg/m^3]
+};
+
+// What sweep 1 leaves for sweep 2 at a fluid particle k: its fit, its stress and its gradients.
+template <int Dim>
+struct Source {
+  Vec<Dim> s = Vec<Dim>::Zero();         // V sigma g
+  Mat<Dim> S = Mat<Dim>::Zero();         // V sigma G
+  Mat<Dim> strain = Mat<Dim>::Zero();    // symmetric part of the velocity gradient L [1/s]
+  Vec<Dim> grad_rho = Vec<Dim>::Zero();  // [kg/m^4]
+};
+
+// The state of the fluid, in the order of the last sort. Arrays of n particles.
+template <int Dim>
+struct Particles {
+  std::vector<double> mass;            // [kg]
+  std::vector<Node<Dim>> node;         // position, velocity, volume, density
+  std::vector<Vec<Dim>> acceleration;  // [m/s^2]
+  std::vector<double> density_rate;    // by density diffusion [kg/(m^3 s)]
+  std::vector<std::uint32_t> id;       // index in Setup::fluid
+  // Of the present step:
+  std::vector<double> pressure;  // [Pa]
+  std::vector<Mat<Dim>> stress;  // sigma + p I, the viscous part [Pa]; empty without viscosity
+  std::vector<Fit<Dim>> fit;
+  std::vector<Source<Dim>> source;
+
+  [[nodiscard]] std::size_t size() const { return node.size(); }
+};
+
+}  // namespace sluice::fluid

@@ -1,0 +1,94 @@
+#include "fluid/shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sluice::fluid {
+
+namespace {
+
+double distance_to(const BoxShape& box, const Eigen::Vector3d& x, int dimension) {
+  const Eigen::VectorXd q = (x.cwiseAbs() - box.half_size).head(dimension);
+  return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
+}
+
+double distance_to(const BallShape& ball, const Eigen::Vector3d& x, int dimension) {
+  return x.head(dimension).norm() - ball.radius;
+}
+
+Eigen::Vector2d outward_normal(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return Eigen::Vector2d(b.y() - a.y(), a.x() - b.x()).normalized();
+}
+
+double distance_to_segment(const Eigen::Vector2d& x, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const double t = std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (x - (a + t * (b - a))).norm();
+}
+
+double distance_to(const PolygonShape& polygon, const Eigen::Vector3d& x, int) {
+  const Eigen::Vector2d p = x.head<2>();
+  double inside = -std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < polygon.vertices.size(); ++k) {
+    const Eigen::Vector2d& a = polygon.vertices[k];
+    const Eigen::Vector2d& b = polygon.vertices[(k + 1) % polygon.vertices.size()];
+    inside = std::max(inside, outward_normal(a, b).dot(p - a));
+    nearest = std::min(nearest, distance_to_segment(p, a, b));
+  }
+  return inside < 0.0 ? inside : nearest;
+}
+
+double thickness_of(const BoxShape& box, int dimension) {
+  return 2.0 * box.half_size.head(dimension).minCoeff();
+}
+double thickness_of(const BallShape& ball, int) {
+  return 2.0 * ball.radius;
+}
+
+// The smallest width of a convex polygon is attained perpendicular to one of its edges.
+double thickness_of(const PolygonShape& polygon, int) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < polygon.vertices.size(); ++k) {
+    const Eigen::Vector2d& a = polygon.vertices[k];
+    const Eigen::Vector2d normal = outward_normal(a, polygon.vertices[(k + 1) % polygon.vertices.size()]);
+    double width = 0;
+    for (const Eigen::Vector2d& v : polygon.vertices) width = std::max(width, -normal.dot(v - a));
+    smallest = std::min(smallest, width);
+  }
+  return smallest;
+}
+
+Bounds bounds_of(const BoxShape& box, int) {
+  return {-box.half_size, box.half_size};
+}
+Bounds bounds_of(const BallShape& ball, int) {
+  return {Eigen::Vector3d::Constant(-ball.radius), Eigen::Vector3d::Constant(ball.radius)};
+}
+Bounds bounds_of(const PolygonShape& polygon, int) {
+  Bounds b{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  b.min.head<2>() = b.max.head<2>() = polygon.vertices.front();
+  for (const Eigen::Vector2d& v : polygon.vertices) {
+    b.min.head<2>() = b.min.head<2>().cwiseMin(v);
+    b.max.head<2>() = b.max.head<2>().cwiseMax(v);
+  }
+  return b;
+}
+
+}  // namespace
+
+double signed_distance(const Shape& shape, const Eigen::Vector3d& x, int dimension) {
+  return std::visit([&](const auto& s) { return distance_to(s, x, dimension); }, shape);
+}
+
+Bounds bounds(const Shape& shape, int dimension) {
+  Bounds b = std::visit([&](const auto& s) { return bounds_of(s, dimension); }, shape);
+  if (dimension == 2) b.min.z() = b.max.z() = 0.0;
+  return b;
+}
+
+double thickness(const Shape& shape, int dimension) {
+  return std::visit([&](const auto& s) { return thickness_of(s, dimension); }, shape);
+}
+
+}  // namespace sluice::fluid

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace sluice::fluid {
+
+template <int Dim>
+using Vec = Eigen::Matrix<double, Dim, 1>;
+
+template <int Dim>
+using Mat = Eigen::Matrix<double, Dim, Dim>;
+
+// The first Dim entries of a vector of the interface, which is three-dimensional for both dimensions.
+template <int Dim>
+Vec<Dim> narrow(const Eigen::Vector3d& v) {
+  return v.head<Dim>();
+}
+
+template <int Dim>
+Eigen::Vector3d widen(const Vec<Dim>& v) {
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();
+  w.template head<Dim>() = v;
+  return w;
+}
+
+}  // namespace sluice::fluid
