@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "fluid/equation_of_state.hpp"
 #include "fluid/sampling.hpp"
 #include "server/geometry.hpp"
 
@@ -126,13 +127,15 @@ class Filling {
     }
   }
 
-  // rho0 g (H - z), CF (65): z the height of x against gravity, H that of the region's highest point.
+  // Hydrostatic, with the density that the pressure makes: z the height of x against gravity, H that of the region's
+  // highest point. CF (65) has the pressure of an incompressible column, with which the start is not quite at rest.
   double pressure(int r, const Eigen::Vector3d& x) const {
     const Eigen::Vector3d g = to_vector(scene_.gravity());
     if ((scene_.fluid(r).has_hydrostatic() && !scene_.fluid(r).hydrostatic()) || g.isZero(0)) return 0;
     const Region& region = regions_[r];
     const double g_height = support(region.shape, -g) - g.dot(region.center);  // g H
-    return scene_.liquid().density() * (g_height + g.dot(x));
+    const fluid::EquationOfState eos(scene_.liquid().density(), scene_.liquid().sound_speed());
+    return eos.pressure(eos.hydrostatic_density(g_height + g.dot(x)));
   }
 
   const Scene& scene_;
