@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include "clients/preflight/checks.hpp"
+
+namespace sluice::clients {
+namespace {
+
+double support_of(const Layout& layout) {
+  return 2 * layout.scene.formulation().smoothing() * layout.spacing;
+}
+
+void check_thickness(const BodyLayout& body, const Layout& layout, Findings& findings) {
+  const double width = rigid::thickness(body.placed.shape, layout.dimension), support = support_of(layout);
+  if (width < layout.spacing * (1 - 1e-9)) {
+    findings.error(
+        body.field,
+        fmt::format("body '{}' is {:.4g} m thick, thinner than one particle spacing of {:g} m; make "
+                    "it thicker or the spacing smaller",
+                    body.name, width, layout.spacing));
+  } else if (std::holds_alternative<rigid::Ball>(body.placed.shape)) {
+    if (width < support)
+      findings.warning(
+          body.field,
+          fmt::format("body '{}' is {:.4g} m across, less than the support of {:.4g} m: liquid on "
+                      "opposite sides interacts through it; a spacing below {:.3g} m avoids this",
+                      body.name, width, support, layout.spacing * width / support));
+  } else if (width < 2 * support) {
+    findings.warning(
+        body.field,
+        fmt::format("body '{}' is {:.4g} m thick, thinner than two supports of {:.4g} m: the "
+                    "thin-plate rule keeps its sides apart; nothing to do unless its edges matter",
+                    body.name, width, support));
+  }
+}
+
+void check_against_liquid(const BodyLayout& body, const Layout& layout, Findings& findings) {
+  if (body.displaces_fluid) return;
+  for (const RegionLayout& region : layout.regions) {
+    const double depth = penetration({body.placed}, region.pieces, layout.dimension);
+    if (depth > layout.tolerance)
+      findings.error(
+          body.field + ".position",
+          fmt::format("body '{}' stands {:.4g} m deep in the liquid of {}; move one of them, or set "
+                      "displaces_fluid: true to cut the liquid out",
+                      body.name, depth, region.field));
+  }
+}
+
+void check_against_bodies(std::size_t b, const Layout& layout, Findings& findings) {
+  const BodyLayout& body = layout.bodies[b];
+  for (std::size_t other = 0; other < b; ++other) {
+    const double depth = penetration({body.placed}, {layout.bodies[other].placed}, layout.dimension);
+    if (depth > layout.tolerance)
+      findings.error(
+          body.field + ".position",
+          fmt::format("body '{}' overlaps body '{}' by {:.4g} m; move them apart (touching is allowed)",
+                      body.name, layout.bodies[other].name, depth));
+  }
+}
+
+void check_against_walls(const BodyLayout& body, const Layout& layout, Findings& findings) {
+  for (int side = 0; side < 2 * layout.dimension; ++side) {
+    if (!layout.tank.closed[side]) continue;
+    const rigid::Interval range =
+        rigid::extent(body.placed.shape, body.placed.pose, Eigen::Vector3d::Unit(side / 2), layout.dimension);
+    const double excess = beyond(range, layout.tank, side);
+    if (excess > layout.tolerance)
+      findings.error(
+          body.field + ".position",
+          fmt::format(
+              "body '{}' reaches {:.4g} m through the wall at {}; move it inside, enlarge the domain, "
+              "or open that side",
+              body.name, excess, side_name(side)));
+  }
+}
+
+}  // namespace
+
+void check_bodies(const Layout& layout, Findings& findings) {
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
+    check_thickness(layout.bodies[b], layout, findings);
+    check_against_liquid(layout.bodies[b], layout, findings);
+    check_against_bodies(b, layout, findings);
+    check_against_walls(layout.bodies[b], layout, findings);
+  }
+}
+
+}  // namespace sluice::clients

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "clients/preflight/checks.hpp"
+#include "protocol/sim_time.hpp"
+
+namespace sluice::clients {
+namespace {
+
+// Of all processes together: what they need without particles, and per particle (state twice because it is
+// sorted, neighbour lists, a frame on its way to the recorder). Measured to a factor of two.
+constexpr double kBaseBytes = 60e6, kFluidBytes = 700, kBoundaryBytes = 200;
+// Particle steps a second of one thread in two and three dimensions.
+constexpr double kSpeed2 = 1.5e6, kSpeed3 = 0.2e6;
+
+double volume_of(const Layout& layout, const rigid::Shape& shape) {
+  return rigid::solid(shape, layout.dimension).volume;
+}
+
+// Length of the outline, or area of the surface in three dimensions.
+double surface_of(const rigid::Shape& shape, int dimension) {
+  if (const auto* ball = std::get_if<rigid::Ball>(&shape))
+    return dimension == 2 ? 2 * std::numbers::pi * ball->radius
+                          : 4 * std::numbers::pi * ball->radius * ball->radius;
+  if (const auto* box = std::get_if<rigid::Box>(&shape)) {
+    const Eigen::Vector3d size = 2 * box->half_size;
+    if (dimension == 2) return 2 * (size.x() + size.y());
+    return 2 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+  }
+  const auto& v = std::get<rigid::Polygon>(shape).vertices;
+  double length = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) length += (v[(i + 1) % v.size()] - v[i]).norm();
+  return length;
+}
+
+// Share of the body that stands in liquid, from points on a grid over its bounds.
+double submerged_share(const BodyLayout& body, const Layout& layout) {
+  constexpr int kGrid = 12;
+  const double radius = rigid::bounding_radius(body.placed.shape, layout.dimension);
+  int inside = 0, wet = 0;
+  for (int i = 0; i < kGrid; ++i)
+    for (int j = 0; j < kGrid; ++j)
+      for (int k = 0; k < (layout.dimension == 3 ? kGrid : 1); ++k) {
+        const auto at = [&](int n) { return radius * ((2.0 * n + 1) / kGrid - 1); };
+        Eigen::Vector3d x = body.placed.pose.position + Eigen::Vector3d(at(i), at(j), 0);
+        if (layout.dimension == 3) x.z() += at(k);
+        const std::vector<Placed> point{{rigid::Ball{0}, {x, Eigen::Quaterniond::Identity()}}};
+        if (penetration({body.placed}, point, layout.dimension) <= 0) continue;
+        ++inside;
+        for (const RegionLayout& region : layout.regions)
+          if (penetration(region.pieces, point, layout.dimension) > 0) {
+            ++wet;
+            break;
+          }
+      }
+  return inside == 0 ? 0 : static_cast<double>(wet) / inside;
+}
+
+double fluid_volume(const Layout& layout) {
+  double volume = 0;
+  for (const RegionLayout& region : layout.regions) volume += region.volume;
+  for (const BodyLayout& body : layout.bodies)
+    if (body.displaces_fluid) volume -= submerged_share(body, layout) * volume_of(layout, body.placed.shape);
+  return std::max(volume, 0.0);
+}
+
+double wall_particles(const Layout& layout, double layers) {
+  double inside = 1, outside = 1;
+  for (int axis = 0; axis < layout.dimension; ++axis) {
+    const double across = (layout.tank.max[axis] - layout.tank.min[axis]) / layout.spacing;
+    inside *= across;
+    outside *= across + layers * (layout.tank.closed[2 * axis] + layout.tank.closed[2 * axis + 1]);
+  }
+  return outside - inside;
+}
+
+// Layers below the surface; of a thick body no more than fill it, of a thin one each face has its own.
+double body_volume_in_particles(const BodyLayout& body, const Layout& layout, double support) {
+  const rigid::Shape& shape = body.placed.shape;
+  const double layers = surface_of(shape, layout.dimension) * support;
+  const bool thin =
+      rigid::thickness(shape, layout.dimension) < 2 * support && !std::holds_alternative<rigid::Ball>(shape);
+  return thin ? layers : std::min(layers, volume_of(layout, shape));
+}
+
+}  // namespace
+
+Estimate estimate(const Layout& layout) {
+  const auto& formulation = layout.scene.formulation();
+  const auto& liquid = layout.scene.liquid();
+  const double h = formulation.smoothing() * layout.spacing,
+               layers = std::ceil(2 * formulation.smoothing() - 1e-9);
+  const double particle = std::pow(layout.spacing, layout.dimension);
+
+  double boundary = wall_particles(layout, layers);
+  for (const BodyLayout& body : layout.bodies)
+    boundary += body_volume_in_particles(body, layout, layers * layout.spacing) / particle;
+  const double fluid = fluid_volume(layout) / particle;
+
+  Estimate result;
+  result.fluid_particles = static_cast<std::uint64_t>(std::llround(fluid));
+  result.boundary_particles = static_cast<std::uint64_t>(std::llround(boundary));
+  result.memory_bytes =
+      static_cast<std::uint64_t>(kBaseBytes + kFluidBytes * fluid + kBoundaryBytes * boundary);
+  const double step = formulation.courant() * h / (liquid.sound_speed() + liquid.max_speed());
+  result.steps =
+      protocol::StepClock::for_run(layout.scene.duration(), layout.scene.output().rate(), step).steps();
+  result.run_seconds =
+      fluid * static_cast<double>(result.steps) / (layout.dimension == 2 ? kSpeed2 : kSpeed3);
+  return result;
+}
+
+}  // namespace sluice::clients
