@@ -115,7 +115,7 @@ void Coupling::end(Outcome& outcome) {
     return end_message;
   };
   try {
-    if (options_.expect_recorder && session_.present(RECORDER)) {
+    if (outcome.reason != End::RECORDER_LOST && session_.present(RECORDER)) {
       record_log();
       record(message());
       drain_recorder();

@@ -1,0 +1,210 @@
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "tests/coupling/test_server.hpp"
+
+namespace sluice::testing {
+namespace {
+
+using protocol::Message;
+using ::testing::HasSubstr;
+
+// A server whose rigid process has joined.
+class ExchangeTest : public ::testing::Test {
+ protected:
+  void join(const Scene& scene) {
+    server_ = std::make_unique<TestServer>(scene);
+    rigid_ = std::make_unique<Peer>(server_->endpoint());
+    ASSERT_TRUE(rigid_->hello(RIGID).header.has_welcome());
+  }
+  Message ask(Message message) {
+    rigid_->send(message);
+    return rigid_->receive();
+  }
+  // Expects a refusal, and that the message as it should have been is then answered: nothing is broken by it.
+  void expect_refused(Message bad, Refusal::Code code, const std::string& reason) {
+    const Message answer = ask(std::move(bad));
+    ASSERT_TRUE(answer.header.has_refusal());
+    EXPECT_EQ(answer.header.refusal().code(), code);
+    EXPECT_THAT(answer.header.refusal().reason(), HasSubstr(reason));
+    EXPECT_TRUE(ask(kinematics(1, 1, 1)).header.has_wrenches());
+  }
+
+  std::unique_ptr<TestServer> server_;
+  std::unique_ptr<Peer> rigid_;
+};
+
+TEST_F(ExchangeTest, StepsInLockStepWithAFreeBody) {
+  join(ball());
+  const std::vector<double> wrenches = play_rigid(*rigid_, server_->steps(), 1, 1);
+
+  const server::Outcome outcome = server_->outcome();
+  EXPECT_EQ(outcome.reason, End::FINISHED) << outcome.detail;
+  ASSERT_EQ(server_->script.stepped.size(), 100u);
+  ASSERT_EQ(wrenches.size(), 600u);
+  for (std::size_t n = 1; n <= 100; ++n) {
+    EXPECT_EQ(server_->script.stepped[n - 1].at(0).position.x(), static_cast<double>(n));
+    EXPECT_EQ(wrenches[6 * (n - 1)], static_cast<double>(n));
+  }
+}
+
+TEST_F(ExchangeTest, StartsTheSolverWithTheScenesPosesAndVelocities) {
+  join(ball());
+  play_rigid(*rigid_, server_->steps(), 1, 1);
+  server_->outcome();
+  ASSERT_EQ(server_->script.started.size(), 1u);
+  EXPECT_EQ(server_->script.started[0].position, Eigen::Vector3d(0.5, 1.2, 0));
+  EXPECT_EQ(server_->script.started[0].velocity, Eigen::Vector3d(0, -1, 0));
+}
+
+TEST_F(ExchangeTest, StreamedBatchesGiveWhatSingleStepsGive) {
+  join(gate());
+  const std::vector<double> streamed = play_rigid(*rigid_, server_->steps(), 64, 2);
+  server_->outcome();
+  const auto streamed_poses = std::move(server_->script.stepped);
+
+  join(gate());
+  const std::vector<double> single = play_rigid(*rigid_, server_->steps(), 1, 1);
+  server_->outcome();
+
+  EXPECT_EQ(streamed, single);
+  ASSERT_EQ(streamed_poses.size(), server_->script.stepped.size());
+  for (std::size_t n = 0; n < streamed_poses.size(); ++n) {
+    EXPECT_EQ(streamed_poses[n].at(0).position, server_->script.stepped[n].at(0).position);
+  }
+}
+
+TEST_F(ExchangeTest, PassesKinematicsOnBitForBit) {
+  join(ball());
+  std::vector<double> row;
+  for (int i = 0; i < 19; ++i) row.push_back(1.0 / (3 + i));
+  const Eigen::Vector4d q = Eigen::Vector4d(0.1, -0.5, 0.7, 0.2).normalized();
+  for (int i = 0; i < 4; ++i) row[3 + static_cast<std::size_t>(i)] = q[i];
+  Message message;
+  message.header.set_sequence(1);
+  message.header.mutable_kinematics()->set_first_step(1);
+  message.header.mutable_kinematics()->set_count(1);
+  message.add_array<double>("kinematics", row, {1, 1, 19});
+  ASSERT_TRUE(ask(std::move(message)).header.has_wrenches());
+  server_->interrupt();
+  EXPECT_EQ(server_->outcome().reason, End::INTERRUPTED);
+
+  std::vector<double> seen;
+  server::append(seen, server_->script.stepped.at(0).at(0));
+  EXPECT_EQ(seen, row);
+}
+
+TEST_F(ExchangeTest, AnswersTheSameSequenceWithTheSameReply) {
+  join(ball());
+  const Message first = ask(kinematics(1, 1, 1));
+  const Message again = ask(kinematics(1, 1, 1));
+  EXPECT_EQ(again.header.SerializeAsString(), first.header.SerializeAsString());
+  EXPECT_EQ(again.hash_arrays(), first.hash_arrays());
+  EXPECT_EQ(ask(kinematics(2, 2, 1)).header.wrenches().first_step(), 2u);  // and has not stepped twice
+}
+
+TEST_F(ExchangeTest, StampsReplies) {
+  join(ball());
+  const Message answer = ask(kinematics(1, 1, 1));
+  EXPECT_EQ(answer.header.sequence(), 1u);
+  EXPECT_EQ(answer.header.step(), 1u);
+  EXPECT_EQ(answer.header.time_ns(), 1'000'000);
+  EXPECT_EQ(answer.header.wrenches().count(), 1u);
+}
+
+TEST_F(ExchangeTest, RefusesAWrongSequenceNamingBoth) {
+  join(ball());
+  expect_refused(kinematics(7, 1, 1), Refusal::BAD_SEQUENCE, "sequence 7 came, expected 1");
+}
+
+TEST_F(ExchangeTest, RefusesStepsThatDoNotFollow) {
+  join(ball());
+  expect_refused(kinematics(1, 3, 1), Refusal::BAD_SEQUENCE, "step 3 came, expected step 1");
+}
+
+TEST_F(ExchangeTest, RefusesSeveralStepsInLockStep) {
+  join(ball());
+  expect_refused(kinematics(1, 1, 2), Refusal::BAD_MESSAGE, "allowed are 1 to 1");
+}
+
+TEST_F(ExchangeTest, RefusesNoStepAndStepsBeyondTheEnd) {
+  join(gate());
+  EXPECT_EQ(ask(kinematics(1, 1, 0)).header.refusal().code(), Refusal::BAD_MESSAGE);
+  expect_refused(kinematics(1, 1, 101), Refusal::BAD_MESSAGE, "allowed are 1 to 100");
+}
+
+TEST_F(ExchangeTest, RefusesAWrongNumberOfBodies) {
+  join(ball());
+  expect_refused(kinematics(1, 1, 1, 2), Refusal::BAD_MESSAGE, "shape [1, 2, 19], expected [1, 1, 19]");
+}
+
+TEST_F(ExchangeTest, RefusesNumbersThatAreNotFinite) {
+  join(ball());
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Message message = kinematics(1, 1, 1);
+    static_cast<double*>(message.frames[0].data())[8] = bad;
+    const Message answer = ask(std::move(message));
+    EXPECT_EQ(answer.header.refusal().code(), Refusal::BAD_MESSAGE);
+    EXPECT_THAT(answer.header.refusal().reason(), HasSubstr("body 0 at step 1: entry 8"));
+  }
+}
+
+TEST_F(ExchangeTest, RefusesQuaternionsThatAreNotOfUnitLength) {
+  join(ball());
+  Message message = kinematics(1, 1, 1);
+  static_cast<double*>(message.frames[0].data())[3] = 1.00001;
+  expect_refused(std::move(message), Refusal::BAD_MESSAGE, "length is 1.00001");
+}
+
+TEST_F(ExchangeTest, RefusesMissingKinematicsAndOtherContent) {
+  join(ball());
+  Message empty;
+  empty.header.set_sequence(1);
+  empty.header.mutable_kinematics()->set_first_step(1);
+  empty.header.mutable_kinematics()->set_count(1);
+  EXPECT_EQ(ask(std::move(empty)).header.refusal().code(), Refusal::BAD_MESSAGE);
+
+  Message other;
+  other.header.mutable_acknowledgement()->set_sequence(1);
+  expect_refused(std::move(other), Refusal::BAD_MESSAGE, "not for the role RIGID");
+}
+
+TEST_F(ExchangeTest, EndsTheRunOfAParticipantThatDoesNotAnswer) {
+  server::Options options;
+  options.deadline = std::chrono::milliseconds(100);
+  TestServer server(ball(), options);
+  Peer rigid(server.endpoint());
+  rigid.hello(RIGID);
+  const server::Outcome outcome = server.outcome();
+  EXPECT_EQ(outcome.reason, End::PARTICIPANT_TIMEOUT);
+  EXPECT_THAT(outcome.detail, HasSubstr("no kinematics of step 1 within 0.1 s"));
+  EXPECT_EQ(rigid.receive().header.end().reason(), End::PARTICIPANT_TIMEOUT);
+}
+
+TEST_F(ExchangeTest, EndsTheRunOfAParticipantThatLeaves) {
+  join(ball());
+  ASSERT_TRUE(ask(kinematics(1, 1, 1)).header.has_wrenches());
+  rigid_.reset();
+  const server::Outcome outcome = server_->outcome();
+  EXPECT_EQ(outcome.reason, End::PARTICIPANT_LOST);
+  EXPECT_EQ(outcome.steps, 1u);
+}
+
+TEST_F(ExchangeTest, NamesTheLastRefusalWhenTheParticipantLeavesOverIt) {
+  join(ball());
+  ask(kinematics(7, 1, 1));
+  rigid_.reset();
+  EXPECT_THAT(server_->outcome().detail, HasSubstr("sequence 7 came, expected 1"));
+}
+
+TEST_F(ExchangeTest, AnInterruptEndsTheRunInGoodOrder) {
+  join(ball());
+  server_->interrupt();
+  EXPECT_EQ(rigid_->receive().header.end().reason(), End::INTERRUPTED);
+  EXPECT_EQ(server_->outcome().reason, End::INTERRUPTED);
+}
+
+}  // namespace
+}  // namespace sluice::testing

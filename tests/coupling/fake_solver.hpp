@@ -1,0 +1,75 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "fluid/solver.hpp"
+
+namespace sluice::testing {
+
+// What a FakeSolver was asked, and how it shall misbehave.
+struct SolverScript {
+  double largest_step = 1e-3;  // [s]
+  // Called at the end of every step with its number and the state.
+  std::function<void(std::uint64_t, fluid::Snapshot&)> spoil;
+  std::vector<fluid::Kinematics> started;
+  std::vector<std::vector<fluid::Kinematics>> stepped;
+};
+
+// Particles in free fall. The wrench on body b after step n is (n, b, 1) N and (0, 0, n) N m; at time 0, n =
+// 0.
+class FakeSolver : public fluid::Solver {
+ public:
+  FakeSolver(const fluid::Setup& setup, SolverScript& script) : setup_(setup), script_(script) {
+    for (const Eigen::Vector3d& x : setup.fluid.position)
+      state_.position.insert(state_.position.end(), x.begin(), x.end());
+    for (const Eigen::Vector3d& v : setup.fluid.velocity)
+      state_.velocity.insert(state_.velocity.end(), v.begin(), v.end());
+    state_.density.assign(setup.fluid.position.size(), setup.liquid.density);
+    state_.pressure = setup.fluid.pressure;
+  }
+
+  void start(std::span<const fluid::Kinematics> bodies) override {
+    script_.started.assign(bodies.begin(), bodies.end());
+    push();
+  }
+
+  void step(double dt, std::span<const fluid::Kinematics> bodies) override {
+    ++steps_;
+    script_.stepped.emplace_back(bodies.begin(), bodies.end());
+    for (std::size_t i = 0; i < state_.position.size(); ++i) {
+      state_.velocity[i] += dt * setup_.gravity[static_cast<Eigen::Index>(i % 3)];
+      state_.position[i] += dt * state_.velocity[i];
+    }
+    if (script_.spoil) script_.spoil(steps_, state_);
+    push();
+  }
+
+  [[nodiscard]] std::span<const fluid::Wrench> wrenches() const override { return wrenches_; }
+  [[nodiscard]] fluid::Wrench wall_wrench() const override { return {}; }
+  [[nodiscard]] double largest_step(double) const override { return script_.largest_step; }
+  [[nodiscard]] fluid::Snapshot snapshot() const override { return state_; }
+  [[nodiscard]] fluid::Diagnostics diagnostics() const override {
+    fluid::Diagnostics diagnostics;
+    diagnostics.kinetic = static_cast<double>(steps_);
+    return diagnostics;
+  }
+
+ private:
+  void push() {
+    wrenches_.clear();
+    const auto n = static_cast<double>(steps_);
+    for (std::size_t b = 0; b < setup_.bodies.size(); ++b) {
+      wrenches_.push_back({{n, static_cast<double>(b), 1}, {0, 0, n}});
+    }
+  }
+
+  fluid::Setup setup_;
+  SolverScript& script_;
+  std::uint64_t steps_ = 0;
+  fluid::Snapshot state_;
+  std::vector<fluid::Wrench> wrenches_;
+};
+
+}  // namespace sluice::testing

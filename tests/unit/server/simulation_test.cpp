@@ -1,0 +1,91 @@
+#include "server/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scene_text.hpp"
+
+namespace sluice::testing {
+namespace {
+
+TEST(Setup, TakesOverLiquidAndFormulation) {
+  const fluid::Setup setup = server::to_setup(
+      tank_with("liquid { density: 800 viscosity: 0.01 } fluid { box { min: [0, 0] max: [1, 1] } } "
+                "formulation { smoothing: 1.6 density_diffusion: 0.2 artificial_viscosity: 0.03 "
+                "moment_floor: 0.25 courant: 0.3 }"),
+      3);
+  EXPECT_EQ(setup.dimension, 2);
+  EXPECT_EQ(setup.spacing, 0.1);
+  EXPECT_EQ(setup.gravity, Eigen::Vector3d(0, -9.81, 0));
+  EXPECT_EQ(setup.liquid.density, 800);
+  EXPECT_EQ(setup.liquid.viscosity, 0.01);
+  EXPECT_EQ(setup.liquid.sound_speed, 40);  // ten times max_speed
+  EXPECT_EQ(setup.formulation.smoothing, 1.6);
+  EXPECT_EQ(setup.formulation.density_diffusion, 0.2);
+  EXPECT_EQ(setup.formulation.artificial_viscosity, 0.03);
+  EXPECT_EQ(setup.formulation.moment_floor, 0.25);
+  EXPECT_EQ(setup.formulation.courant, 0.3);
+  EXPECT_EQ(setup.threads, 3);
+}
+
+TEST(Setup, HasWallsAtClosedSidesOnly) {
+  const fluid::Setup setup = server::to_setup(
+      tank_with("domain { open: [Y_MAX, X_MIN] } fluid { box { min: [0, 0] max: [1, 1] } }"), 1);
+  bool left = false, right = false, below = false, above = false;
+  for (const Eigen::Vector3d& x : setup.walls.position) {
+    left |= x.x() < 0;
+    right |= x.x() > 1;
+    below |= x.y() < 0;
+    above |= x.y() > 2;
+  }
+  EXPECT_FALSE(left);
+  EXPECT_TRUE(right);
+  EXPECT_TRUE(below);
+  EXPECT_FALSE(above);
+}
+
+TEST(Setup, SamplesEveryBodyAboutItsCentreOfMass) {
+  const fluid::Setup setup = server::to_setup(
+      tank_with("fluid { box { min: [0, 0] max: [1, 0.5] } } "
+                "body { name: 'a' ball { radius: 0.2 } position: [0.5, 1] density: 500 } "
+                "body { name: 'b' polygon { vertex { x: 10 y: 10 } vertex { x: 10.6 y: 10 } vertex "
+                "{ x: 10 y: 10.6 } } "
+                "position: [0.5, 1.6] density: 500 }"),
+      1);
+  ASSERT_EQ(setup.bodies.size(), 2u);
+  for (const fluid::Boundary& body : setup.bodies) {
+    ASSERT_FALSE(body.position.empty());
+    for (const Eigen::Vector3d& x : body.position) EXPECT_LT(x.norm(), 0.6);
+  }
+}
+
+TEST(Simulation, IsLockedToTheRigidProcessByAFreeBodyOnly) {
+  const std::string water = "fluid { box { min: [0, 0] max: [1, 0.5] } } ";
+  const std::string gate =
+      "body { name: 'gate' box { size: [0.4, 0.4] } position: [0.5, 1] prescribed { constant { velocity: [0, "
+      "0.1] } } } ";
+  const std::string ball = "body { name: 'ball' ball { radius: 0.2 } position: [0.5, 1.6] density: 500 } ";
+  EXPECT_FALSE(server::make_simulation(tank_with(water), 1).has_free_body());
+  EXPECT_FALSE(server::make_simulation(tank_with(water + gate), 1).has_free_body());
+  EXPECT_TRUE(server::make_simulation(tank_with(water + gate + ball), 1).has_free_body());
+}
+
+TEST(Simulation, StepsWithinTheSolversLimitAndHitsEveryOutput) {
+  const server::Simulation simulation =
+      server::make_simulation(tank_with("fluid { box { min: [0, 0] max: [1, 0.5] } } output { rate: 7 }"), 1);
+  const protocol::StepClock& clock = simulation.clock;
+  const double largest = simulation.solver->largest_step(4);
+  for (std::uint64_t step = 1; step <= clock.steps(); ++step) {
+    EXPECT_LE(protocol::seconds(clock.duration(step)), largest);
+  }
+  EXPECT_NEAR(protocol::seconds(clock.time(clock.steps())), 1, 1e-8);
+  EXPECT_EQ(clock.steps() / clock.steps_per_interval(), 7u);
+}
+
+TEST(Simulation, RefusesStepsThatAreTooShort) {
+  EXPECT_THROW(server::make_simulation(
+                   tank_with("liquid { sound_speed: 1e6 } fluid { box { min: [0, 0] max: [1, 0.5] } }"), 1),
+               protocol::InputError);
+}
+
+}  // namespace
+}  // namespace sluice::testing
