@@ -19,7 +19,7 @@ class Message {
 
   // Appends an array copied from `data`, row-major, whose size must be the product of `shape`.
   template <typename T>
-  void add_array(std::string_view name, std::span<const T> data, std::vector<std::uint64_t> shape) {
+  void add_array(std::string_view name, std::span<const T> data, const std::vector<std::uint64_t>& shape) {
     add_raw(name, type_of<T>(), data.data(), sizeof(T), data.size(), shape);
   }
 

@@ -1,6 +1,7 @@
 #include "protocol/scene_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -24,9 +25,10 @@ std::string read_text(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, error)) refuse(path, "is a directory; give a scene file");
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(path, fmt::format("cannot be read: {}", std::strerror(errno)));
-  std::string text(kLargestFile + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
+  std::string text;
+  std::array<char, 1 << 16> chunk{};
+  while (text.size() <= kLargestFile && (file.read(chunk.data(), chunk.size()), file.gcount() > 0))
+    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
   if (text.size() > kLargestFile)
     refuse(path, fmt::format("is larger than {} MiB, which no scene needs", kLargestFile >> 20));
   return text;

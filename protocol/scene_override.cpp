@@ -95,9 +95,8 @@ pb::Message& descend(pb::Message& message, const Step& step, const std::string& 
 std::string expected(const FieldDescriptor& field) {
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_ENUM: {
-      std::vector<std::string> names;
-      for (int i = 0; i < field.enum_type()->value_count(); ++i)
-        names.push_back(field.enum_type()->value(i)->name());
+      std::vector<std::string> names(static_cast<std::size_t>(field.enum_type()->value_count()));
+      for (int n = 0; auto& name : names) name = field.enum_type()->value(n++)->name();
       return fmt::format("one of {}", fmt::join(names, ", "));
     }
     case FieldDescriptor::CPPTYPE_MESSAGE:
