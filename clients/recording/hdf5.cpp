@@ -101,10 +101,12 @@ void set_attribute(hid_t file, const std::string& object, const std::string& nam
   check(H5Awrite(made, type, padded(text, H5Tget_size(type)).data()), "write an attribute");
 }
 
+// The object is opened first: an attribute opened by path cannot be written (HDF5 1.10.8, "can't locate open
+// attribute").
 void rewrite_attribute(hid_t file, const std::string& object, const std::string& name,
                        const std::string& text) {
-  const Attribute found(H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                        "open an attribute");
+  const Object owner(H5Oopen(file, object.c_str(), H5P_DEFAULT), "open an object");
+  const Attribute found(H5Aopen(owner, name.c_str(), H5P_DEFAULT), "open an attribute");
   const Type type(H5Aget_type(found), "read an attribute's type");
   check(H5Awrite(found, type, padded(text, text_length(type)).data()), "write an attribute");
 }

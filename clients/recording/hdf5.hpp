@@ -27,7 +27,8 @@ Result check(Result result, const char* what) {
   return result;
 }
 
-// Keeps the library from printing its error stack from this thread. Call before any other function.
+// Keeps the library from printing its error stack from this thread, and from closing files when the process
+// exits. Call before any other function.
 void silence();
 
 template <herr_t (*close)(hid_t)>
@@ -60,6 +61,7 @@ using Dataset = Handle<H5Dclose>;
 using Space = Handle<H5Sclose>;
 using Type = Handle<H5Tclose>;
 using Attribute = Handle<H5Aclose>;
+using Object = Handle<H5Oclose>;
 using Properties = Handle<H5Pclose>;
 
 using Shape = std::vector<hsize_t>;

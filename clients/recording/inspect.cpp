@@ -50,8 +50,9 @@ Json bodies(const Scene& scene) {
 }
 
 Json energy(const Reader& recording, std::uint64_t frame) {
-  const Energy values = recording.energy(frame);
-  return {{"time", seconds(recording.instant(frame).time_ns)},
+  const Header header = recording.frame_header(frame);
+  const Energy& values = header.frame().energy();
+  return {{"time", seconds(header.time_ns())},
           {"kinetic", values.kinetic()},
           {"potential", values.potential()},
           {"elastic", values.elastic()},
@@ -88,7 +89,7 @@ Json describe(const Reader& recording) {
                    {"processor", welcome.build().processor()},
                    {"threads", welcome.build().threads()}}}};
   if (frames > 0) {
-    result["last_step"] = recording.instant(frames - 1).step;
+    result["last_step"] = recording.frame_header(frames - 1).step();
     result["first"] = energy(recording, 0);
     result["last"] = energy(recording, frames - 1);
   }

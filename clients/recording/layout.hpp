@@ -20,6 +20,10 @@ inline constexpr const char* kFrameStep = "/particles/fluid/position/step";
 inline constexpr const char* kFrameTime = "/particles/fluid/position/time";
 inline constexpr const char* kFrameTimeNs = "/frames/time_ns";
 inline constexpr const char* kFrameHash = "/frames/hash";
+// Over step, time_ns, hash and the energies of the frame.
+inline constexpr const char* kFrameChecksum = "/frames/checksum";
+// Over step, time_ns, kinematics and wrenches of the step.
+inline constexpr const char* kExchangeChecksum = "/exchange/checksum";
 inline constexpr const char* kExchangeStep = "/exchange/step";
 inline constexpr const char* kExchangeTimeNs = "/exchange/time_ns";
 

@@ -40,16 +40,11 @@ class Reader {
   // Steps whose exchange is recorded: 1 .. exchanges().
   [[nodiscard]] std::uint64_t exchanges() const;
 
-  struct Instant {
-    std::uint64_t step;
-    std::int64_t time_ns;
-    std::uint64_t hash;
-  };
-  [[nodiscard]] Instant instant(std::uint64_t frame) const;
-  [[nodiscard]] Energy energy(std::uint64_t frame) const;
+  // Step, time, index, hash and energies of a frame, without its arrays.
+  [[nodiscard]] Header frame_header(std::uint64_t index) const;
 
   // The messages that were recorded, bit for bit; the sender's run id and version are set, sequence and token
-  // are not. All throw InputError naming the frame when its hash does not fit.
+  // are not. All throw InputError when the bytes are not those that were written.
   [[nodiscard]] protocol::Message welcome_message() const;
   [[nodiscard]] protocol::Message frame(std::uint64_t index) const;
   // Precondition: 1 <= first_step, first_step + count - 1 <= exchanges().

@@ -5,7 +5,7 @@
 namespace sluice::clients::h5 {
 namespace {
 
-constexpr std::size_t kChunkBytes = 64 << 10;
+constexpr std::size_t kChunkBytes = 8 << 10;
 
 Shape with_length(hsize_t length, const Shape& row) {
   Shape shape{length};

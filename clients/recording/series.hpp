@@ -27,7 +27,15 @@ class Series {
     read_raw(memory_type<T>(), data.data(), first, count);
     return data;
   }
-  [[nodiscard]] hsize_t length() const { return length_; }
+  template <typename T>
+  void append_one(T value) {
+    append(std::span<const T>(&value, 1));
+  }
+  template <typename T>
+  [[nodiscard]] T read_one(hsize_t row) const {
+    return read<T>(row, 1).front();
+  }
+  [[nodiscard]] std::uint64_t length() const { return length_; }
   // Rows are empty; the length says nothing.
   [[nodiscard]] bool absent() const { return !dataset_.valid(); }
 

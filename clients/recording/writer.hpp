@@ -29,11 +29,10 @@ class Writer {
   // Records how the run ended, closes the file and writes the XDMF companion beside it.
   void finish(const std::string& reason, const std::string& detail, double wall_seconds = 0);
 
-  [[nodiscard]] std::uint64_t frames() const;
-  [[nodiscard]] std::uint64_t exchanges() const;
-
  private:
   class File;
+  template <typename Action>
+  void guarded(Action action);
   std::unique_ptr<File> file_;
 };
 

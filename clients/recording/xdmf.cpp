@@ -47,7 +47,7 @@ void write_frame(std::ostream& out, const Reader& recording, const std::vector<l
                  std::uint64_t frame) {
   const auto n = recording.welcome().fluid_particles();
   fmt::print(out, "<Grid Name=\"frame {}\" GridType=\"Uniform\">\n<Time Value=\"{:.9g}\"/>\n", frame,
-             1e-9 * static_cast<double>(recording.instant(frame).time_ns));
+             1e-9 * static_cast<double>(recording.frame_header(frame).time_ns()));
   fmt::print(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n",
              n);
   for (const auto& field : fields) {

@@ -1,0 +1,24 @@
+#include "clients/recording/array_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sluice::clients {
+
+using protocol::ProtocolError;
+
+void check_array(const protocol::Message& message, int i, const std::string& name,
+                 const h5::Shape& expected) {
+  const bool present = i < message.header.array_size();
+  const Array& array = present ? message.header.array(i) : Array::default_instance();
+  if (array.name() == name && array.type() == Array::FLOAT64 &&
+      std::equal(array.shape().begin(), array.shape().end(), expected.begin(), expected.end()))
+    return;
+  throw ProtocolError(
+      fmt::format("array {} must be {} of type FLOAT64 and shape [{}], not {} of type {} and shape [{}]", i,
+                  name, fmt::join(expected, ", "), present ? array.name() : "absent",
+                  Array::Type_Name(array.type()), fmt::join(array.shape(), ", ")));
+}
+
+}  // namespace sluice::clients

@@ -1,0 +1,133 @@
+#include "clients/recording/frame_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "clients/recording/array_check.hpp"
+#include "clients/recording/checksum.hpp"
+#include "clients/recording/energy.hpp"
+#include "protocol/sim_time.hpp"
+
+namespace sluice::clients {
+namespace {
+
+using protocol::Message;
+using protocol::ProtocolError;
+
+// Of what the hash over the arrays leaves out.
+std::uint64_t checksum(const Header& header, const std::vector<layout::Observable>& observables) {
+  Checksum sum;
+  sum.add(header.step()).add(header.time_ns()).add(header.frame().hash());
+  for (const auto& observable : observables)
+    sum.add(std::span<const double>(energy_values(header.frame().energy(), observable.name, 3)));
+  return sum.value();
+}
+
+// Every element of H5MD has its own step and time; here they are the same datasets by hard links.
+void link_times(hid_t file, const std::string& group) {
+  h5::link(file, layout::kFrameStep, group + "/step");
+  h5::link(file, layout::kFrameTime, group + "/time");
+}
+
+}  // namespace
+
+template <typename Make>
+FrameTable::FrameTable(hsize_t particles, hsize_t bodies, Make make)
+    : fields_(layout::frame_fields(particles, bodies)), observables_(layout::observables()) {
+  using Row = h5::Shape;
+  step_ = make.template operator()<std::uint64_t>(layout::kFrameStep, Row{}, "");
+  time_ = make.template operator()<double>(layout::kFrameTime, Row{}, "s");
+  time_ns_ = make.template operator()<std::int64_t>(layout::kFrameTimeNs, Row{}, "ns");
+  hash_ = make.template operator()<std::uint64_t>(layout::kFrameHash, Row{}, "");
+  checksum_ = make.template operator()<std::uint64_t>(layout::kFrameChecksum, Row{}, "");
+  for (const auto& field : fields_)
+    data_.push_back(make.template operator()<double>(field.dataset, field.row, field.unit));
+  for (const auto& observable : observables_)
+    energy_.push_back(make.template operator()<double>(layout::energy_group(observable) + "/value",
+                                                       observable.row, observable.unit));
+}
+
+FrameTable FrameTable::create(hid_t file, hsize_t particles, hsize_t bodies) {
+  FrameTable table(particles, bodies,
+                   [&]<typename T>(const std::string& path, const h5::Shape& row, const std::string& unit) {
+                     return h5::Series::create<T>(file, path, row, unit);
+                   });
+  link_times(file, "/frames");
+  for (const char* name : {"velocity", "density", "pressure"})
+    link_times(file, fmt::format("/particles/fluid/{}", name));
+  for (const auto& observable : table.observables_) link_times(file, layout::energy_group(observable));
+  return table;
+}
+
+FrameTable FrameTable::open(hid_t file, hsize_t particles, hsize_t bodies) {
+  return {particles, bodies,
+          [&]<typename T>(const std::string& path, const h5::Shape& row, const std::string& /*unit*/) {
+            return h5::Series::open(file, path, row);
+          }};
+}
+
+void FrameTable::check(const Message& message) const {
+  for (std::size_t i = 0; i < fields_.size(); ++i)
+    check_array(message, static_cast<int>(i), fields_[i].array, fields_[i].row);
+  const Frame& frame = message.header.frame();
+  if (frame.index() != length())
+    throw ProtocolError(fmt::format("frame {} came, expected {}", frame.index(), length()));
+  if (frame.hash() != message.hash_arrays())
+    throw ProtocolError(fmt::format("frame {} does not have the hash it announces", frame.index()));
+}
+
+// The step last: who finds it there finds the rest.
+void FrameTable::append(const Message& message) {
+  check(message);
+  const Header& header = message.header;
+  for (std::size_t i = 0; i < fields_.size(); ++i) data_[i].append(message.array<double>(fields_[i].array));
+  for (std::size_t i = 0; i < observables_.size(); ++i)
+    energy_[i].append(
+        std::span<const double>(energy_values(header.frame().energy(), observables_[i].name, 3)));
+  hash_.append_one<std::uint64_t>(header.frame().hash());
+  checksum_.append_one<std::uint64_t>(checksum(header, observables_));
+  time_ns_.append_one<std::int64_t>(header.time_ns());
+  time_.append_one<double>(protocol::seconds(header.time_ns()));
+  step_.append_one<std::uint64_t>(header.step());
+}
+
+std::uint64_t FrameTable::length() const {
+  std::uint64_t shortest = step_.length();
+  for (const auto* series : {&time_, &time_ns_, &hash_, &checksum_})
+    shortest = std::min(shortest, series->length());
+  for (const auto* group : {&data_, &energy_})
+    for (const auto& series : *group)
+      if (!series.absent()) shortest = std::min(shortest, series.length());
+  return shortest;
+}
+
+Header FrameTable::header(std::uint64_t index) const {
+  Header header;
+  header.set_step(step_.read_one<std::uint64_t>(index));
+  header.set_time_ns(time_ns_.read_one<std::int64_t>(index));
+  Frame& frame = *header.mutable_frame();
+  frame.set_index(index);
+  frame.set_hash(hash_.read_one<std::uint64_t>(index));
+  for (std::size_t i = 0; i < observables_.size(); ++i)
+    set_energy_values(*frame.mutable_energy(), observables_[i].name, energy_[i].read<double>(index, 1));
+  return header;
+}
+
+Message FrameTable::read(std::uint64_t index) const {
+  Message message;
+  message.header = header(index);
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    const auto data = data_[i].read<double>(index, 1);
+    message.add_array<double>(fields_[i].array, data, {fields_[i].row.begin(), fields_[i].row.end()});
+  }
+  return message;
+}
+
+bool FrameTable::intact(const Message& message) const {
+  const Frame& frame = message.header.frame();
+  return frame.hash() == message.hash_arrays() &&
+         checksum_.read_one<std::uint64_t>(frame.index()) == checksum(message.header, observables_);
+}
+
+}  // namespace sluice::clients
