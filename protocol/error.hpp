@@ -17,7 +17,8 @@ class PeerLost : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What the user asked for cannot be done; the text names the thing, its value, what is allowed and what to do.
+// What the user asked for cannot be done; the text names the thing, its value, what is allowed and what to
+// do.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -15,7 +15,8 @@ struct Limits {
 };
 
 // Sends all frames of the message. Returns false when the socket would block or, on a ROUTER with the
-// MANDATORY option, when the peer is gone. `identity` addresses a peer of a ROUTER, or is the topic on an XPUB
+// MANDATORY option, when the peer is gone. `identity` addresses a peer of a ROUTER, or is the topic on an
+// XPUB
 // ("status" or "frame"); empty otherwise.
 bool send(zmq::socket_t& socket, const Message& message, const std::string& identity = {});
 

@@ -12,7 +12,7 @@ namespace sluice::protocol {
 std::vector<Problem> check_fields(const Scene& scene);
 
 // The scene with every default filled in (gravity, liquid, domain.min, output.rate, formulation ...).
-// Precondition: check_fields found nothing.
+// Means something only where check_fields finds nothing; harmless elsewhere.
 Scene with_defaults(const Scene& scene);
 
 }  // namespace sluice::protocol

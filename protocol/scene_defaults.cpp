@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "protocol/field_check.hpp"
 #include "protocol/scene_check.hpp"
@@ -17,9 +18,14 @@ double norm(const Vector& vector) {
   return std::sqrt(sum);
 }
 
+// A scene from a peer may lack entries; zero then.
+double at(const Vector& vector, int axis) {
+  return axis < vector.size() ? vector[axis] : 0;
+}
+
 double dot(const Vector& a, const Vector& b) {
   double sum = 0;
-  for (int i = 0; i < std::min(a.size(), b.size()); ++i) sum += a[i] * b[i];
+  for (int i = 0; i < a.size(); ++i) sum += a[i] * at(b, i);
   return sum;
 }
 
@@ -29,15 +35,15 @@ double top(const FluidRegion& region, const Vector& up) {
   switch (region.shape_case()) {
     case FluidRegion::kBox: {
       double sum = 0;
-      for (int a = 0; a < std::min(region.box().max_size(), up.size()); ++a)
-        sum += std::max(up[a] * region.box().min(a), up[a] * region.box().max(a));
+      for (int a = 0; a < up.size(); ++a)
+        sum += std::max(up[a] * at(region.box().min(), a), up[a] * at(region.box().max(), a));
       return sum;
     }
     case FluidRegion::kBall:
       return dot(region.ball().center(), up) + region.ball().radius();
     case FluidRegion::kPolygon:
       for (const auto& v : region.polygon().vertex())
-        highest = std::max(highest, up[0] * v.x() + up[1] * v.y());
+        highest = std::max(highest, at(up, 0) * v.x() + at(up, 1) * v.y());
       return highest;
     default:
       return highest;
@@ -50,7 +56,7 @@ double liquid_height(const Scene& scene, double g) {
   for (double& x : up) x /= -g;
   double floor = 0;
   for (int a = 0; a < up.size(); ++a)
-    floor += std::min(up[a] * scene.domain().min(a), up[a] * scene.domain().max(a));
+    floor += std::min(up[a] * at(scene.domain().min(), a), up[a] * at(scene.domain().max(), a));
   double highest = floor;
   for (const auto& region : scene.fluid()) highest = std::max(highest, top(region, up));
   return highest - floor;
@@ -96,7 +102,7 @@ void fill_formulation(Formulation& formulation) {
 Scene with_defaults(const Scene& scene) {
   constexpr double kFrames = 100;
   Scene full = scene;
-  const int dimension = static_cast<int>(scene.dimension());
+  const int dimension = scene.dimension() == 3 ? 3 : 2;
   if (full.gravity().empty()) {
     fill_zeros(*full.mutable_gravity(), dimension);
     full.set_gravity(dimension - 1, -9.81);

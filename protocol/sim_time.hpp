@@ -6,7 +6,9 @@ namespace sluice::protocol {
 
 using Nanoseconds = std::int64_t;
 
-[[nodiscard]] constexpr double seconds(Nanoseconds t) { return 1e-9 * static_cast<double>(t); }
+[[nodiscard]] constexpr double seconds(Nanoseconds t) {
+  return 1e-9 * static_cast<double>(t);
+}
 
 // When each fluid step ends. Output times are hit exactly: an interval between two outputs is divided
 // into equal steps, rounded to whole nanoseconds, so that every process computes the same instants.

@@ -71,5 +71,17 @@ TEST(Defaults, SpeedFollowsFromTheSpeedOfSoundWhereNothingElseMoves) {
   EXPECT_DOUBLE_EQ(filled({"gravity=[0, 0]", "liquid.sound_speed=30"}).liquid().max_speed(), 3);
 }
 
+// What a peer sends is not always checked before.
+TEST(Defaults, ScenesThatLackEverythingDoNoHarm) {
+  Scene scene;
+  scene.add_fluid()->mutable_box();
+  scene.add_fluid()->mutable_polygon()->add_vertex();
+  scene.mutable_gravity()->Add(-1);
+  scene.add_body();
+  const Scene full = with_defaults(scene);
+  EXPECT_THAT(full.body(0).velocity(), ElementsAre(0, 0));
+  EXPECT_EQ(full.liquid().max_speed(), 0);
+}
+
 }  // namespace
 }  // namespace sluice::protocol
