@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/scene_file.hpp"
+#include "clients/preflight/preflight.hpp"
 
 namespace sluice::clients {
 
@@ -15,7 +15,10 @@ struct CheckOptions {
 
 // Loads the scene and looks for what cannot work; warnings go to the log. Throws SceneError with every
 // problem.
-protocol::SceneFile load_checked(const CheckOptions& options);
+Estimate require_sound(const CheckOptions& options);
+
+// "10000 fluid and 4062 boundary particles, 7725 steps, 35 MB, about 0:38 on one thread"
+std::string to_string(const Estimate& estimate);
 
 // Prints what the scene will cost. Returns the exit code; throws SceneError.
 int check(const CheckOptions& options);

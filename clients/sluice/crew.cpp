@@ -85,6 +85,7 @@ int Crew::exit_code() {
 
 std::string Crew::failure_report() {
   std::string report;
+  if (interrupts_ > 0) return report;  // the user knows why they ended
   for (const auto& child : children_) {
     const int code = child->wait();
     if (code == 0) continue;

@@ -31,7 +31,7 @@ class Crew {
   // The server's exit code; where it had to be stopped, that of the participant that failed. A program that
   // a signal ended counts as failed.
   [[nodiscard]] int exit_code();
-  // What each failed program said last; empty when none failed.
+  // What each failed program said last; empty when none failed, or after interrupt().
   [[nodiscard]] std::string failure_report();
   [[nodiscard]] const Child& server() const { return *children_.front(); }
 

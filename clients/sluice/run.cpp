@@ -15,9 +15,10 @@ namespace {
 
 // Everything that can be wrong is tried before anything is started; OutputFile leaves nothing behind.
 void require_runnable(const RunOptions& options, const std::string& endpoint) {
-  load_checked(options.check);
+  const Estimate estimate = require_sound(options.check);
   if (!options.output.empty()) const OutputFile trial(options.output, options.force);
   require_free(protocol::Endpoint::parse(endpoint, !options.keys.empty()));
+  spdlog::info("{}: {}", options.check.scene.string(), to_string(estimate));
 }
 
 // A script that asked for JSON gets its object also when nothing was started.
@@ -38,7 +39,7 @@ int run_to_end(const RunOptions& options) {
 
   Session session(options, endpoint);
   const Summary summary = session.follow();
-  if (summary.exit_code != 0) std::cerr << session.failure_report();
+  std::cerr << session.failure_report();
   std::cout << (options.json ? to_json(summary) + "\n" : to_table(summary)) << std::flush;
   return summary.exit_code;
 }

@@ -145,8 +145,8 @@ void Session::read_recording() {
     summary_.recording_bytes = std::filesystem::file_size(summary_.recording);
     const Reader recording(summary_.recording);
     if (recording.frames() == 0) return;
-    summary_.start = recording.energy(0);
-    summary_.end = recording.energy(recording.frames() - 1);
+    summary_.start = recording.frame_header(0).frame().energy();
+    summary_.end = recording.frame_header(recording.frames() - 1).frame().energy();
   } catch (const std::filesystem::filesystem_error&) {
     summary_.recording.clear();  // the recorder wrote nothing
   } catch (const protocol::InputError& error) {
