@@ -10,7 +10,7 @@ namespace {
 // The half-buoyant cylinder falls in, comes up again and ends near the level of Archimedes: its centre in the
 // surface that its own volume has raised. At half the scene's resolution.
 TEST(FallingCylinder, EntersTheWaterAndFloats) {
-  SceneRun run("falling_cylinder", {"spacing=0.011", "duration=3"});
+  SceneRun run("falling_cylinder", {"spacing=0.011", "duration=2"});
   const double radius = 0.055, level = 0.396 + 0.5 * M_PI * radius * radius / 1.21;
   double deepest = 1, sum = 0;
   int count = 0;
@@ -19,14 +19,14 @@ TEST(FallingCylinder, EntersTheWaterAndFloats) {
     deepest = std::min(deepest, y);
     EXPECT_LT(y, 0.46);
     EXPECT_NEAR(run.body(0).position.x(), 0.605, 3 * radius);
-    if (run.time() > 1.5) {
+    if (run.time() > 1.2) {
       sum += y;
       ++count;
     }
   }
   EXPECT_LT(deepest, level - radius);
   EXPECT_NEAR(sum / count, level, 0.35 * radius);
-  std::printf("falling cylinder: mean level after 1.5 s %.4f m, Archimedes %.4f m\n", sum / count, level);
+  std::printf("falling cylinder: mean level after 1.2 s %.4f m, Archimedes %.4f m\n", sum / count, level);
 }
 
 }  // namespace
