@@ -52,11 +52,11 @@ void serve(zmq::socket_t& handler, zmq::socket_t& stop, const std::set<std::stri
 }
 
 // A thread that starts with all signals blocked: they are the main thread's.
-std::jthread without_signals(const auto& start) {
+std::thread without_signals(const auto& start) {
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::jthread thread = start();
+  std::thread thread = start();
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return thread;
 }
@@ -72,8 +72,8 @@ Authenticator::Authenticator(zmq::context_t& context, ServerKeys keys)
   zmq::socket_t stopped(context, zmq::socket_type::pair);
   stopped.connect(kStop);
   thread_ = without_signals([&] {
-    return std::jthread([handler = std::move(handler), stopped = std::move(stopped),
-                         allowed = std::move(keys.allowed)]() mutable {
+    return std::thread([handler = std::move(handler), stopped = std::move(stopped),
+                        allowed = std::move(keys.allowed)]() mutable {
       try {
         serve(handler, stopped, allowed);
       } catch (const zmq::error_t&) {
@@ -85,6 +85,7 @@ Authenticator::Authenticator(zmq::context_t& context, ServerKeys keys)
 
 Authenticator::~Authenticator() {
   zmq_send(stop_.handle(), "", 0, ZMQ_DONTWAIT);
+  thread_.join();
 }
 
 void Authenticator::secure(zmq::socket_t& socket) const {

@@ -60,7 +60,7 @@ class Authenticator {
  private:
   std::string secret_key_;
   zmq::socket_t stop_;
-  std::jthread thread_;
+  std::thread thread_;
 };
 
 }  // namespace sluice::protocol
