@@ -127,6 +127,10 @@ void Coupling::end(Outcome& outcome) {
       outcome.detail = stop.what();
     }
   }
+  if (outcome.reason == End::RECORDER_LOST) {
+    outcome.detail += fmt::format("; {} messages up to step {} are recorded", recorder_.acknowledged(),
+                                  recorder_.acknowledged_step());
+  }
   session_.send(RIGID, message());
   publisher_.update();
   publisher_.publish("status", message());

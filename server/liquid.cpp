@@ -127,8 +127,9 @@ class Filling {
     }
   }
 
-  // Hydrostatic, with the density that the pressure makes: z the height of x against gravity, H that of the region's
-  // highest point. CF (65) has the pressure of an incompressible column, with which the start is not quite at rest.
+  // Hydrostatic, with the density that the pressure makes: z the height of x against gravity, H that of the
+  // region's highest point. CF (65) has the pressure of an incompressible column, with which the start is not
+  // quite at rest.
   double pressure(int r, const Eigen::Vector3d& x) const {
     const Eigen::Vector3d g = to_vector(scene_.gravity());
     if ((scene_.fluid(r).has_hydrostatic() && !scene_.fluid(r).hydrostatic()) || g.isZero(0)) return 0;

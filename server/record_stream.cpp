@@ -19,7 +19,7 @@ bool RecordStream::offer(protocol::Message& message) {
   ++last_sequence_;
   std::size_t bytes = message.header.ByteSizeLong();
   for (const zmq::message_t& raw : message.frames) bytes += raw.size();
-  in_flight_.push_back(bytes);
+  in_flight_.push_back({bytes, message.header.step()});
   bytes_ += bytes;
   return true;
 }
@@ -30,7 +30,8 @@ void RecordStream::acknowledge(std::uint64_t sequence) {
                   fmt::format("acknowledged {}, but only {} messages were sent", sequence, last_sequence_));
   }
   while (acknowledged() < sequence) {
-    bytes_ -= in_flight_.front();
+    bytes_ -= in_flight_.front().bytes;
+    acknowledged_step_ = in_flight_.front().step;
     in_flight_.pop_front();
   }
 }

@@ -25,12 +25,20 @@ class RecordStream {
   void acknowledge(std::uint64_t sequence);
   [[nodiscard]] std::uint64_t sent() const { return last_sequence_; }
   [[nodiscard]] std::uint64_t acknowledged() const { return last_sequence_ - in_flight_.size(); }
+  // The step of the last message acknowledged.
+  [[nodiscard]] std::uint64_t acknowledged_step() const { return acknowledged_step_; }
 
  private:
+  struct Sent {
+    std::size_t bytes;
+    std::uint64_t step;
+  };
+
   zmq::socket_t& push_;
   std::uint64_t last_sequence_ = 0;
-  std::deque<std::size_t> in_flight_;  // bytes of each message not acknowledged, oldest first
-  std::size_t bytes_ = 0;              // their sum
+  std::uint64_t acknowledged_step_ = 0;
+  std::deque<Sent> in_flight_;  // not acknowledged, oldest first
+  std::size_t bytes_ = 0;       // of them
 };
 
 }  // namespace sluice::server
