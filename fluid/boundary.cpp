@@ -13,7 +13,6 @@ BoundaryParticles<Dim>::BoundaryParticles(const Setup& setup) {
   acceleration_.assign(size(), Vec<Dim>::Zero());
   pressure.assign(size(), 0.0);
   dilation.assign(size(), 1.0);
-  force.assign(size(), Vec<Dim>::Zero());
   if (setup.liquid.viscosity > 0.0) stress.assign(size(), Mat<Dim>::Zero());
 }
 

@@ -55,7 +55,6 @@ class BoundaryParticles {
   std::vector<double> pressure;  // [Pa]
   std::vector<Mat<Dim>> stress;  // viscous part [Pa]; empty without viscosity
   std::vector<double> dilation;  // wetness times volume of the fluid near over its first volume
-  std::vector<Vec<Dim>> force;   // of the fluid on the particle [N]
 
  private:
   void append(const Boundary& boundary, double rest_density);

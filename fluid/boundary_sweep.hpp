@@ -42,7 +42,7 @@ void extrapolate(const Model<Dim>& model, const Particles<Dim>& fluid,
     const double dp = n.rho * g_minus_a.dot(x_wf);
     const double approach = std::max(0.0, (n.v - node.v).dot(x_wf));
     sum_W += W;
-    sum_p += W * (fluid.pressure[f] + dp);
+    if (!fluid.fit[f].floored) sum_p += W * (fluid.pressure[f] + dp);
     sum_rho += W * (n.rho + dp * per_c2);
     sum_V += W * n.volume;
     sum_dynamic += W * 0.5 * n.rho * approach * approach / (r2 + model.tiny_r2);

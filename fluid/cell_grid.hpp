@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -19,12 +20,15 @@ class CellGrid {
   // The grid over the bounding box of the nodes, in cells of at least `cell` [m]; larger ones where there
   // would be more than 4 cells per node.
   CellGrid(const std::vector<Node<Dim>>& nodes, double cell) : cell_(cell) {
-    Vec<Dim> high = Vec<Dim>::Zero();
-    if (!nodes.empty()) low_ = high = nodes.front().x;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    low_.setConstant(kInfinity);
+    Vec<Dim> high = Vec<Dim>::Constant(-kInfinity);
     for (const Node<Dim>& node : nodes) {
+      if (!node.x.allFinite()) continue;
       low_ = low_.cwiseMin(node.x);
       high = high.cwiseMax(node.x);
     }
+    if (!(low_[0] <= high[0])) low_ = high = Vec<Dim>::Zero();
     const double most = 4.0 * static_cast<double>(nodes.size()) + 1024.0;
     while (((high - low_) / cell_).array().ceil().max(1.0).prod() > most) cell_ *= 2.0;
     for (int a = 0; a < Dim; ++a) count_[a] = 1 + static_cast<std::int64_t>((high[a] - low_[a]) / cell_);

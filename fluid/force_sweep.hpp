@@ -32,6 +32,15 @@ Vec<Dim> guard_force(const Model<Dim>& model, const Vec<Dim>& x_iw) {
   return model.guard_stiffness * (model.guard_range / r - 1.0) * x_iw;
 }
 
+// Energy [J] stored in that spring.
+template <int Dim>
+double guard_energy(const Model<Dim>& model, const Vec<Dim>& x_iw) {
+  const double r2 = x_iw.squaredNorm();
+  if (r2 >= model.guard_range * model.guard_range) return 0.0;
+  const double stretch = model.guard_range - std::sqrt(r2 + model.tiny_r2);
+  return 0.5 * model.guard_stiffness * stretch * stretch;
+}
+
 // Sweep 2: what the neighbours k of particle i do to it. The internal force is CF (43) with nodal quadrature,
 //   f_i = -sum_k V_k sigma_k grad N_i(x_k) = -V_i sum_k W_ik (s_k + S_k x_ik),
 // with s and S from sweep 1; k runs over the fluid, i itself (x_ii = 0) and the boundary.
@@ -89,22 +98,32 @@ class ForceSweep {
   double diffusion_ = 0;
 };
 
+// What the fluid does to a boundary particle: force, and the moment about the particle itself (widened to
+// three dimensions), since a viscous traction acts at the fluid particle and along another direction than the
+// connection.
+template <int Dim>
+struct Reaction {
+  Vec<Dim> force = Vec<Dim>::Zero();                 // [N]
+  Eigen::Vector3d couple = Eigen::Vector3d::Zero();  // [N m]
+};
+
 // The exact reaction: what the fluid particles near boundary particle w do to it. Fluid particle i
 // distributes its stress to w like to any neighbour, and takes w's traction with the opposite sign.
 template <int Dim>
-Vec<Dim> reaction(const Model<Dim>& model, const Particles<Dim>& fluid,
-                  std::span<const std::uint32_t> neighbors, std::size_t w,
-                  const BoundaryParticles<Dim>& boundary) {
+Reaction<Dim> reaction(const Model<Dim>& model, const Particles<Dim>& fluid,
+                       std::span<const std::uint32_t> neighbors, std::size_t w,
+                       const BoundaryParticles<Dim>& boundary) {
   const Node<Dim>& node = boundary.node()[w];
-  Vec<Dim> force = Vec<Dim>::Zero();
+  Reaction<Dim> sum;
   for (const std::uint32_t i : neighbors) {
-    const Vec<Dim> x_wi = node.x - fluid.node[i].x;
-    const double W = model.kernel.value(x_wi.squaredNorm());
-    force -= node.volume * W * (fluid.source[i].s + fluid.source[i].S * x_wi);
-    force -= boundary_traction<Dim>(model, boundary, w, fluid.node[i].volume, W, -x_wi);
-    force -= guard_force<Dim>(model, -x_wi);
+    const Vec<Dim> x_iw = fluid.node[i].x - node.x;
+    const double W = model.kernel.value(x_iw.squaredNorm());
+    const Vec<Dim> traction = boundary_traction<Dim>(model, boundary, w, fluid.node[i].volume, W, x_iw);
+    sum.force -= node.volume * W * (fluid.source[i].s - fluid.source[i].S * x_iw);
+    sum.force -= traction + guard_force<Dim>(model, x_iw);
+    if (!boundary.stress.empty()) sum.couple -= widen<Dim>(x_iw).cross(widen<Dim>(traction));
   }
-  return force;
+  return sum;
 }
 
 }  // namespace sluice::fluid

@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "fluid/boundary_sweep.hpp"
-#include "fluid/force_sweep.hpp"
 #include "fluid/gradient_sweep.hpp"
 #include "fluid/stress.hpp"
 
@@ -176,19 +175,20 @@ void GalerkinSolver<Dim>::compute_forces() {
 template <int Dim>
 void GalerkinSolver<Dim>::collect_wrenches() {
   const auto& active = search_.active_boundary();
+  reaction_.resize(active.size());
   parallel_.for_each(active.size(), [&](std::size_t a) {
-    const std::size_t w = active[a];
-    if (boundary_.body(w) == 0 && !measure_wall_force_) return;
-    boundary_.force[w] = reaction<Dim>(model_, fluid_, search_.fluid_near_active(a), w, boundary_);
+    if (is_measured(active[a]))
+      reaction_[a] = reaction<Dim>(model_, fluid_, search_.fluid_near_active(a), active[a], boundary_);
   });
   wrench_.assign(wrench_.size(), Wrench{});
-  for (const std::uint32_t w : active) {
-    const auto body = static_cast<std::size_t>(boundary_.body(w));
-    if (body == 0 && !measure_wall_force_) continue;
-    const Eigen::Vector3d force = widen<Dim>(boundary_.force[w]);
+  for (std::size_t a = 0; a < active.size(); ++a) {
+    if (!is_measured(active[a])) continue;
+    const auto body = static_cast<std::size_t>(boundary_.body(active[a]));
     const Eigen::Vector3d center = body == 0 ? Eigen::Vector3d::Zero() : bodies_[body - 1].position;
+    const Eigen::Vector3d arm = widen<Dim>(boundary_.node()[active[a]].x) - center;
+    const Eigen::Vector3d force = widen<Dim>(reaction_[a].force);
     wrench_[body].force += force;
-    wrench_[body].moment += (widen<Dim>(boundary_.node()[w].x) - center).cross(force);
+    wrench_[body].moment += arm.cross(force) + reaction_[a].couple;
   }
 }
 
@@ -251,9 +251,13 @@ Diagnostics GalerkinSolver<Dim>::diagnostics() const {
     d.elastic += fluid_.mass[i] * model_.eos.elastic_energy(node.rho);
     d.momentum += momentum;
     d.angular_momentum += widen<Dim>(node.x).cross(momentum);
-    d.max_speed = std::max(d.max_speed, node.v.norm());
-    d.max_compression = std::max(d.max_compression, std::abs(node.rho / model_.eos.rest_density() - 1.0));
+    d.max_speed = larger(d.max_speed, node.v.norm());
+    d.max_compression = larger(d.max_compression, std::abs(node.rho / model_.eos.rest_density() - 1.0));
   }
+  const auto& active = search_.active_boundary();
+  for (std::size_t a = 0; a < active.size(); ++a)
+    for (const std::uint32_t i : search_.fluid_near_active(a))
+      d.elastic += guard_energy<Dim>(model_, fluid_.node[i].x - boundary_.node()[active[a]].x);
   d.boundary_work = boundary_work_;
   return d;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fluid/boundary.hpp"
+#include "fluid/force_sweep.hpp"
 #include "fluid/model.hpp"
 #include "fluid/neighbor_search.hpp"
 #include "fluid/parallel.hpp"
@@ -38,6 +39,8 @@ class GalerkinSolver final : public Solver {
   void collect_wrenches();
   void update_volumes();
 
+  // Bodies always, the walls on request.
+  [[nodiscard]] bool is_measured(std::size_t w) const { return measure_wall_force_ || boundary_.body(w) > 0; }
   [[nodiscard]] double boundary_power() const;
 
   Model<Dim> model_;
@@ -47,7 +50,8 @@ class GalerkinSolver final : public Solver {
   NeighborSearch<Dim> search_;
   std::vector<Mat<Dim>> velocity_gradient_;
   std::vector<Kinematics> bodies_;
-  std::vector<Wrench> wrench_;  // walls, then the bodies
+  std::vector<Reaction<Dim>> reaction_;  // on the active boundary particles
+  std::vector<Wrench> wrench_;           // walls, then the bodies
   bool measure_wall_force_;
   double courant_;
   double boundary_work_ = 0;

@@ -66,8 +66,7 @@ bool separated(const std::vector<Plate<Dim>>& plates, const Vec<Dim>& x, const V
 template <int Dim>
 bool visible(const BoundaryParticles<Dim>& boundary, std::size_t w, const Vec<Dim>& x) {
   const std::int32_t plate = boundary.plate(w);
-  return plate < 0 || sees_face(boundary.plates()[static_cast<std::size_t>(plate)],
-                                static_cast<std::size_t>(boundary.face(w)), x);
+  return plate < 0 || sees_face(boundary.plates()[static_cast<std::size_t>(plate)], boundary.face(w), x);
 }
 
 }  // namespace

@@ -36,11 +36,7 @@ double Parallel::max_of_blocks(std::size_t count, const BlockValue& block) const
   return arena_->arena.execute([&] {
     return tbb::parallel_reduce(
         Range(0, count, kGrain), 0.0,
-        [&](const Range& r, double largest) {
-          const double candidate = block(r.begin(), r.end());
-          return candidate <= largest ? largest : candidate;
-        },
-        [](double a, double b) { return b <= a ? a : b; });
+        [&](const Range& r, double largest) { return larger(largest, block(r.begin(), r.end())); }, larger);
   });
 }
 

@@ -4,6 +4,8 @@
 #include <functional>
 #include <memory>
 
+#include "fluid/types.hpp"
+
 namespace sluice::fluid {
 
 // Loops over index ranges on a fixed number of threads. Every index is written by one thread and results
@@ -23,15 +25,12 @@ class Parallel {
     });
   }
 
-  // Largest value(i), at least 0. The maximum does not depend on the order.
+  // Largest value(i), at least 0. The maximum does not depend on the order; not-a-number is the largest.
   template <typename Value>
   [[nodiscard]] double max(std::size_t count, const Value& value) const {
     return max_of_blocks(count, [&value](std::size_t begin, std::size_t end) {
       double largest = 0;
-      for (std::size_t i = begin; i < end; ++i) {
-        const double candidate = value(i);
-        if (!(candidate <= largest)) largest = candidate;
-      }
+      for (std::size_t i = begin; i < end; ++i) largest = larger(largest, value(i));
       return largest;
     });
   }

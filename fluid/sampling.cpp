@@ -8,6 +8,11 @@ double particle_volume(double spacing, int dimension) {
   return dimension == 2 ? spacing * spacing : spacing * spacing * spacing;
 }
 
+namespace {
+// A lattice point this near to a surface, in spacings, is on it whatever rounding says, and not inside.
+constexpr double kOnSurface = 1e-9;
+}  // namespace
+
 std::vector<Eigen::Vector3d> fill(const Shape& shape, const Eigen::Vector3d& center, double spacing,
                                   int dimension) {
   const Bounds box = bounds(shape, dimension);
@@ -20,7 +25,7 @@ std::vector<Eigen::Vector3d> fill(const Shape& shape, const Eigen::Vector3d& cen
       for (int a = 0; a < count[0]; ++a) {
         Eigen::Vector3d x = box.min + spacing * Eigen::Vector3d(a + 0.5, b + 0.5, c + 0.5);
         if (dimension == 2) x.z() = 0.0;
-        if (signed_distance(shape, x, dimension) < 0.0) points.push_back(center + x);
+        if (signed_distance(shape, x, dimension) < -kOnSurface * spacing) points.push_back(center + x);
       }
   return points;
 }
@@ -29,7 +34,7 @@ namespace {
 
 // Coordinates along one axis: cells between min and max, and layers beyond its closed sides.
 struct Axis {
-  std::vector<double> at;
+  std::vector<double> at, width;
   std::vector<bool> inside;
 };
 
@@ -41,10 +46,13 @@ Axis divide(double min, double max, bool wall_below, bool wall_above, double spa
     const bool inside = k >= 0 && k < cells;
     const double beyond = k < 0 ? min + (k + 0.5) * spacing : max + (k - cells + 0.5) * spacing;
     axis.at.push_back(inside ? min + (k + 0.5) * width : beyond);
+    axis.width.push_back(inside ? width : spacing);
     axis.inside.push_back(inside);
   }
   return axis;
 }
+
+const Axis kFlat{{0.0}, {1.0}, {true}};  // the third axis of a plane
 
 int layer_count(double support, double spacing) {
   return static_cast<int>(std::ceil(support / spacing - 1e-9));
@@ -55,7 +63,7 @@ int layer_count(double support, double spacing) {
 Boundary sample_walls(const Eigen::Vector3d& min, const Eigen::Vector3d& max,
                       const std::array<bool, 6>& closed, double spacing, double support, int dimension) {
   const int layers = layer_count(support, spacing);
-  std::array<Axis, 3> axis{Axis{{0.0}, {true}}, Axis{{0.0}, {true}}, Axis{{0.0}, {true}}};
+  std::array<Axis, 3> axis{kFlat, kFlat, kFlat};
   for (int a = 0; a < dimension; ++a)
     axis[a] = divide(min[a], max[a], closed[2 * a], closed[2 * a + 1], spacing, layers);
   Boundary walls;
@@ -64,7 +72,7 @@ Boundary sample_walls(const Eigen::Vector3d& min, const Eigen::Vector3d& max,
       for (std::size_t a = 0; a < axis[0].at.size(); ++a) {
         if (axis[0].inside[a] && axis[1].inside[b] && axis[2].inside[c]) continue;
         walls.position.emplace_back(axis[0].at[a], axis[1].at[b], axis[2].at[c]);
-        walls.volume.push_back(particle_volume(spacing, dimension));
+        walls.volume.push_back(axis[0].width[a] * axis[1].width[b] * axis[2].width[c]);
       }
   return walls;
 }

@@ -1,6 +1,6 @@
 #include "fluid/solver.hpp"
 
-#include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -11,8 +11,10 @@ namespace sluice::fluid {
 namespace {
 
 void require(bool condition, const std::string& name, double value, const char* allowed) {
-  if (!condition)
-    throw std::invalid_argument("fluid setup: " + name + " is " + std::to_string(value) + "; " + allowed);
+  if (condition) return;
+  std::ostringstream text;
+  text << "fluid setup: " << name << " is " << value << "; " << allowed;
+  throw std::invalid_argument(text.str());
 }
 
 void check(const Setup& setup) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "fluid/boundary.hpp"
@@ -9,36 +10,54 @@ namespace sluice::fluid {
 // The thin-plate rule (README.md): the two sides of a plate thinner than two supports must not see each
 // other.
 
-// Whether fluid at x sees the boundary particles of that face: it stands in front of the face, or it is
-// inside the plate and this is the face nearest to it.
+// The face that fluid at x, pressed into the plate, belongs to: the nearest. -1 when x is outside.
 template <int Dim>
-bool sees_face(const Plate<Dim>& plate, std::size_t face, const Vec<Dim>& x) {
-  if (plate.faces[face].distance(x) > 0.0) return true;
-  std::size_t nearest = 0;
+int home_face(const Plate<Dim>& plate, const Vec<Dim>& x) {
+  int nearest = -1;
   double largest = -std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < plate.faces.size(); ++f) {
     const double d = plate.faces[f].distance(x);
-    if (d > 0.0) return false;
+    if (d > 0.0) return -1;
     if (d > largest) {
       largest = d;
-      nearest = f;
+      nearest = static_cast<int>(f);
     }
   }
-  return nearest == face;
+  return nearest;
 }
 
-// Whether the segment from x to y passes through the plate: clips it by the half-spaces behind the faces
-// (M. Cyrus, J. Beck, Computers & Graphics 3, 1978).
+// Whether fluid at x sees the boundary particles of that face: it stands in front of it, or inside and at
+// home there.
 template <int Dim>
-bool separates(const Plate<Dim>& plate, const Vec<Dim>& x, const Vec<Dim>& y) {
+bool sees_face(const Plate<Dim>& plate, int face, const Vec<Dim>& x) {
+  return plate.faces[static_cast<std::size_t>(face)].distance(x) > 0.0 || home_face(plate, x) == face;
+}
+
+// Whether the segment between two points outside passes through the plate: clips it by the half-spaces behind
+// the faces (M. Cyrus, J. Beck, Computers & Graphics 3, 1978). From x to y and back the answer is the same to
+// the last bit.
+template <int Dim>
+bool crosses(const Plate<Dim>& plate, const Vec<Dim>& x, const Vec<Dim>& y) {
+  const bool forward = std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end());
+  const Vec<Dim>& from = forward ? x : y;
+  const Vec<Dim>& to = forward ? y : x;
   double enter = 0.0, leave = 1.0;
   for (const Plane<Dim>& face : plate.faces) {
-    const double dx = face.distance(x), dy = face.distance(y);
-    if (dx > 0.0 && dy > 0.0) return false;
-    if (dx > 0.0) enter = std::max(enter, dx / (dx - dy));
-    if (dy > 0.0) leave = std::min(leave, dx / (dx - dy));
+    const double d0 = face.distance(from), d1 = face.distance(to);
+    if (d0 > 0.0 && d1 > 0.0) return false;
+    if (d0 > 0.0) enter = std::max(enter, d0 / (d0 - d1));
+    if (d1 > 0.0) leave = std::min(leave, d0 / (d0 - d1));
   }
   return enter < leave;
+}
+
+// Whether the plate stands between two fluid particles. One that is pressed into a face stays with that
+// face's side.
+template <int Dim>
+bool separates(const Plate<Dim>& plate, const Vec<Dim>& x, const Vec<Dim>& y) {
+  if (const int home = home_face(plate, x); home >= 0) return !sees_face(plate, home, y);
+  if (const int home = home_face(plate, y); home >= 0) return !sees_face(plate, home, x);
+  return crosses(plate, x, y);
 }
 
 // Whether a pair with an end at x can be affected by the plate.

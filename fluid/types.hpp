@@ -24,4 +24,9 @@ Eigen::Vector3d widen(const Vec<Dim>& v) {
   return w;
 }
 
+// The larger of two; not-a-number wins, so that a lost particle is not overlooked.
+inline double larger(double a, double b) {
+  return b > a || b != b ? b : a;
+}
+
 }  // namespace sluice::fluid

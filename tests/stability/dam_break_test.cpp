@@ -7,6 +7,11 @@
 namespace sluice::fluid {
 namespace {
 
+// Mechanical energy over its running minimum, as a share of its start, at every step. Columns this coarse
+// show up to 1.2 % when single particles rebound (a/dx = 8); at a/dx = 40 the bound is 0.1 %, and
+// tests/validation/dam_break holds it.
+constexpr double kEnergyRise = 0.015;
+
 class Impact : public testing::TestWithParam<DamBreak> {};
 
 // The wave meets the far wall, climbs it and falls back into the water, with spray all along.
@@ -18,7 +23,7 @@ TEST_P(Impact, StaysBounded) {
   EXPECT_TRUE(extremes.finite);
   EXPECT_GT(extremes.farthest_x, 0.9);  // the impact has happened
   EXPECT_LT(extremes.compression, 0.3);
-  EXPECT_LT(extremes.energy_rise, 1e-3);
+  EXPECT_LT(extremes.energy_rise, kEnergyRise);
   EXPECT_LT(extremes.escape, 0.5);
 }
 

@@ -66,7 +66,7 @@ void expect_closed_balance(int dimension, double viscosity, int steps) {
   EXPECT_LT(worst_linear, 1e-10);
   EXPECT_LT(worst_angular, 1e-10);
   const double weight = 9.81 * std::accumulate(masses.begin(), masses.end(), 0.0);
-  for (const double force : largest) EXPECT_GT(force, 0.1 * weight);
+  for (const double force : largest) EXPECT_GT(force, 0.05 * weight);
   EXPECT_LT(splash.solver().diagnostics().max_compression, 0.3);
 }
 

@@ -33,13 +33,13 @@ SceneRun::SceneRun(const std::string& scene, const std::vector<std::string>& ove
 }
 
 bool SceneRun::next_output() {
-  if (step_ >= simulation_.clock.steps()) return false;
-  do step();
-  while (!simulation_.clock.is_output(step_));
-  return true;
+  while (next_step())
+    if (is_output()) return true;
+  return false;
 }
 
-void SceneRun::step() {
+bool SceneRun::next_step() {
+  if (step_ >= simulation_.clock.steps()) return false;
   ++step_;
   const double dt = protocol::seconds(simulation_.clock.duration(step_));
   if (world_) {
@@ -48,6 +48,7 @@ void SceneRun::step() {
   }
   simulation_.solver->step(dt, simulation_.bodies);
   if (world_ && world_->has_free_bodies()) world_->correct(dt, to_rigid(simulation_.solver->wrenches()));
+  return true;
 }
 
 double SceneRun::time() const {

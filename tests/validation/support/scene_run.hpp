@@ -17,8 +17,10 @@ class SceneRun {
   explicit SceneRun(const std::string& scene, const std::vector<std::string>& overrides = {},
                     int threads = 1);
 
-  // Advances to the next output time; false when the run is over.
+  // Advances by one fluid step, or to the next output time; false when the run is over.
+  bool next_step();
   bool next_output();
+  [[nodiscard]] bool is_output() const { return simulation_.clock.is_output(step_); }
 
   [[nodiscard]] double time() const;  // [s]
   [[nodiscard]] double end_time() const;
@@ -29,8 +31,6 @@ class SceneRun {
   [[nodiscard]] const fluid::Wrench& wrench(std::size_t b) const { return solver().wrenches()[b]; }
 
  private:
-  void step();
-
   server::Simulation simulation_;
   std::unique_ptr<rigid::World> world_;
   std::uint64_t step_ = 0;
