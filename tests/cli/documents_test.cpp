@@ -28,7 +28,7 @@ class Document : public testing::TestWithParam<const char*> {
 constexpr const char* kQuickSluice = R"(#!/bin/sh
 case "$*" in
   replay*|check*) exec {0}/sluice "$@" ;;
-  *rising_gate.scene*) exec {0}/sluice "$@" --set spacing=0.002 ;;
+  *rising_gate.scene*) exec {0}/sluice "$@" --set spacing=0.004 ;;
   *) exec {0}/sluice "$@" ;;
 esac
 )";
