@@ -82,9 +82,11 @@ void fill_liquid(Scene& scene) {
 }
 
 void fill_body(Body& body, int dimension) {
-  fill_zeros(*body.mutable_velocity(), dimension);
-  fill_zeros(*body.mutable_angular_velocity(), dimension == 2 ? 1 : 3);
-  if (body.orientation().empty()) {
+  if (!body.has_prescribed()) {
+    fill_zeros(*body.mutable_velocity(), dimension);
+    fill_zeros(*body.mutable_angular_velocity(), dimension == 2 ? 1 : 3);
+  }
+  if (dimension == 3 && body.orientation().empty()) {
     for (const double q : {1.0, 0.0, 0.0, 0.0}) body.add_orientation(q);
   }
 }
