@@ -17,6 +17,7 @@ namespace {
 constexpr milliseconds kSlice{100};    // of waiting, after each of which lost peers are looked for
 constexpr milliseconds kPollEvery{5};  // between steps
 constexpr milliseconds kBeatEvery{1000};
+constexpr int kMostMessages = 256;  // dealt with at once: a flood must not keep the run from its deadlines
 
 // "the recorder did not join within 30 s"
 std::string late(std::string_view what, milliseconds deadline) {
@@ -158,7 +159,9 @@ void Coupling::service(milliseconds timeout) {
   if (!ending_ && options_.interrupted != nullptr && options_.interrupted->load()) {
     throw Stop(End::INTERRUPTED, fmt::format("by a signal after step {}", step_));
   }
-  while (const std::optional<Session::Inbound> inbound = session_.receive()) dispatch(*inbound);
+  const auto handle = [this](const Session::Inbound& inbound) { dispatch(inbound); };
+  for (int i = 0; i < kMostMessages && session_.serve(handle); ++i) {
+  }
   publisher_.update();
   if (progress_.due()) publish_status();
 }

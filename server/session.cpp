@@ -53,27 +53,23 @@ Session::Peers::const_iterator Session::holder(Role role) const {
                       [role](const auto& entry) { return entry.second.role == role; });
 }
 
-std::optional<Session::Inbound> Session::receive() {
-  while (std::optional<protocol::Received> received = next()) {
-    const std::string identity = received->identity;
-    try {
-      if (std::optional<Inbound> inbound = admit(std::move(*received))) return inbound;
-    } catch (const Refused& refused) {
-      refuse(identity, refused);
-    }
+bool Session::serve(const std::function<void(const Inbound&)>& handle) {
+  std::optional<protocol::Received> received;
+  try {
+    received = protocol::receive(router_);
+  } catch (const protocol::ProtocolError& error) {
+    // Anyone can send anything to a socket: what is not a message is dropped, and the run goes on.
+    complain(fmt::format("dropped a message: {}", error.what()));
+    return true;
   }
-  return std::nullopt;
-}
-
-// Anyone can send anything to a socket: what is not a message is dropped, and the run goes on.
-std::optional<protocol::Received> Session::next() {
-  while (true) {
-    try {
-      return protocol::receive(router_);
-    } catch (const protocol::ProtocolError& error) {
-      spdlog::warn("dropped a message: {}", error.what());
-    }
+  if (!received) return false;
+  const std::string identity = received->identity;
+  try {
+    if (const std::optional<Inbound> inbound = admit(std::move(*received))) handle(*inbound);
+  } catch (const Refused& refused) {
+    refuse(identity, refused);
   }
+  return true;
 }
 
 std::optional<Session::Inbound> Session::admit(protocol::Received received) {
@@ -170,7 +166,7 @@ void Session::refuse(Role role, const Refused& refused) {
 }
 
 void Session::refuse(const std::string& identity, const Refused& refused) {
-  spdlog::warn("refused a message: {} - {}", Refusal::Code_Name(refused.code()), refused.what());
+  complain(fmt::format("refused a message: {} - {}", Refusal::Code_Name(refused.code()), refused.what()));
   Message refusal;
   refusal.header.mutable_refusal()->set_code(refused.code());
   refusal.header.mutable_refusal()->set_reason(refused.what());
@@ -202,6 +198,13 @@ void Session::lose(const std::string& identity) {
   if (peer.role == RECORDER && state_ != State::WAITING) throw Stop(End::RECORDER_LOST, text);
   if (peer.role == RIGID && state_ == State::RUNNING) throw Stop(End::PARTICIPANT_LOST, text);
   spdlog::warn("{}", text);
+}
+
+// A peer that sends nonsense without end must not fill the log.
+void Session::complain(const std::string& text) {
+  constexpr int kMost = 100;
+  if (++complaints_ <= kMost) spdlog::warn("{}", text);
+  if (complaints_ == kMost) spdlog::warn("further messages of this kind are not logged");
 }
 
 }  // namespace sluice::server

@@ -43,9 +43,9 @@ class Session {
   // Everyone the run needs has joined.
   [[nodiscard]] bool complete() const;
 
-  // The next message that concerns the run, if one is waiting. Handshakes, heartbeats and messages that are
-  // refused are dealt with inside.
-  std::optional<Inbound> receive();
+  // Takes in one message, if one is waiting; false when none was. Handshakes, heartbeats and messages that
+  // are refused are dealt with inside; what concerns the run goes to `handle`.
+  bool serve(const std::function<void(const Inbound&)>& handle);
 
   // Sends to the participant in a role; one that cannot be reached is lost.
   void send(Role role, protocol::Message message);
@@ -64,13 +64,13 @@ class Session {
   using Peers = std::map<std::string, Peer>;  // by the ROUTER's identity of the connection
 
   [[nodiscard]] Peers::const_iterator holder(Role role) const;
-  std::optional<protocol::Received> next();
   std::optional<Inbound> admit(protocol::Received received);
   std::optional<Inbound> greet(const std::string& identity, protocol::Message hello);
   void check_role(const std::string& identity, Role role);
   bool deliver(const std::string& identity, protocol::Message& message);
   void refuse(const std::string& identity, const Refused& refused);
   void lose(const std::string& identity);
+  void complain(const std::string& text);
 
   zmq::socket_t& router_;
   Needs needs_;
@@ -79,6 +79,7 @@ class Session {
   std::string run_id_;
   Peers peers_;
   std::chrono::steady_clock::time_point last_heartbeat_;
+  int complaints_ = 0;
 };
 
 }  // namespace sluice::server

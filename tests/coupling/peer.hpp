@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -57,8 +58,12 @@ class Peer {
 
   // Whether anything but heartbeats comes within the time.
   bool hears_within(int milliseconds) {
-    while (auto received = protocol::receive_within(exchange_, milliseconds)) {
-      if (!received->message.header.has_heartbeat()) return true;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(milliseconds);
+    for (auto left = milliseconds; left >= 0;) {
+      const auto received = protocol::receive_within(exchange_, left);
+      if (received && !received->message.header.has_heartbeat()) return true;
+      const auto rest = end - std::chrono::steady_clock::now();
+      left = static_cast<int>(std::chrono::floor<std::chrono::milliseconds>(rest).count());
     }
     return false;
   }
