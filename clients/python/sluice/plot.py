@@ -21,20 +21,28 @@ from sluice import shapes
 from sluice.recording import Recording, RecordingError
 
 WIDTH = 8.0  # of a picture [inch]
-MAPS = {"speed": "viridis", "pressure": "turbo", "density": "cividis"}
+DIAMETER = 1.4  # of a particle, in spacings: a lattice of them closes
+MAPS = {"speed": "viridis", "pressure": "plasma", "density": "cividis"}
 SIGNED = "RdBu_r"  # velocity_x ...: zero is the middle
 
 
 def color_range(run, field, frames):
-    """One range for all pictures, without the extreme 0.2 % at either end: single particles of spray."""
+    """One range for all pictures, without the extreme 0.2 % at either end: single particles of spray.
+
+    Returns the limits and which ends of the colour bar stand for more than they say.
+    """
     values = np.concatenate([run.field(field, frame) for frame in frames])
-    low, high = np.percentile(values[np.isfinite(values)], [0.2, 99.8])
+    values = values[np.isfinite(values)]
+    low, high = np.percentile(values, [0.2, 99.8])
     if field.startswith("velocity_"):
         high = max(abs(low), abs(high), 1e-12)
-        return -high, high
-    if field == "speed":
+        low = -high
+    elif field == "speed":
         low = 0.0
-    return (low, high) if high > low else (low, low + max(abs(low), 1.0) * 1e-9)
+    if high <= low:
+        high = low + max(abs(low), 1.0) * 1e-9
+    below, above = values.min() < low, values.max() > high
+    return (low, high), "both" if below and above else "min" if below else "max" if above else "neither"
 
 
 def visible(run, frames):
@@ -48,11 +56,11 @@ def visible(run, frames):
     return lower, np.array([upper[0], top])
 
 
-def draw_frame(axes, run, frame, field, limits, corners, front):
+def draw_frame(axes, run, frame, field, limits, corners, front, title):
     x = run.field("position", frame)
     # In three dimensions the nearest particles are drawn last.
     order = np.argsort(-x[:, 2], kind="stable") if run.dimension == 3 else slice(None)
-    size = np.full(len(x), run.spacing)
+    size = np.full(len(x), DIAMETER * run.spacing)
     particles = EllipseCollection(
         size, size, np.zeros(len(x)), units="xy", offsets=x[order, :2], transOffset=axes.transData,
         cmap=MAPS.get(field, SIGNED), linewidths=0,
@@ -61,7 +69,7 @@ def draw_frame(axes, run, frame, field, limits, corners, front):
     particles.set_clim(*limits)
     axes.add_collection(particles)
     for line in shapes.walls(run.scene):
-        axes.plot(*line.T, color="0.55", linewidth=1.2, solid_capstyle="projecting", clip_on=False, zorder=3)
+        axes.plot(*np.minimum(line, corners[1]).T, color="0.55", linewidth=1.2, clip_on=False, zorder=3)
     for body, row in zip(run.scene.get("body", []), run.body_kinematics(frame)):
         axes.add_patch(Polygon(shapes.placed(body, row), facecolor="0.82", edgecolor="0.2", linewidth=0.8, zorder=4))
     if front:
@@ -71,7 +79,7 @@ def draw_frame(axes, run, frame, field, limits, corners, front):
     axes.set_xlim(lower[0] - margin, upper[0] + margin)
     axes.set_ylim(lower[1] - margin, upper[1] + margin)
     axes.set_aspect("equal")
-    axes.set_title(f"t = {run.times[frame]:.4g} s", fontsize=10)
+    axes.set_title(title, fontsize=10)
     for side in ("top", "right", "left", "bottom"):
         axes.spines[side].set_visible(False)
     axes.tick_params(labelsize=8, color="0.55")
@@ -81,10 +89,11 @@ def draw_frame(axes, run, frame, field, limits, corners, front):
 def draw_front(axes, x, corners):
     """The foremost particle."""
     front = x[:, 0].max()
+    left = front > 0.5 * (corners[0][0] + corners[1][0])
     axes.axvline(front, color="crimson", linewidth=0.9, linestyle="--", zorder=5)
     axes.annotate(
-        f"x = {front:.4g} m", (front, corners[1][1]), xytext=(-3, -3), textcoords="offset points",
-        ha="right", va="top", fontsize=8, color="crimson",
+        f"x = {front:.4g} m", (front, corners[1][1]), xytext=(-3 if left else 3, -3),
+        textcoords="offset points", ha="right" if left else "left", va="top", fontsize=8, color="crimson",
     )
 
 
@@ -106,20 +115,24 @@ def plot_particles(run, frames, field, front):
         rows, columns, figsize=(WIDTH + 1.0, rows * (height + 0.35) + 0.5), squeeze=False, layout="constrained",
         sharex=True, sharey=True,
     )
-    limits = color_range(run, field, frames)
+    limits, extend = color_range(run, field, frames)
+    name = run.scene.get("name", "")
     for axes, frame in zip(grid.flat, frames):
-        particles = draw_frame(axes, run, frame, field, limits, corners, front)
+        time = f"t = {run.times[frame]:.4g} s"
+        title = time if len(frames) > 1 else f"{name}, {time}"
+        particles = draw_frame(axes, run, frame, field, limits, corners, front, title)
     for axes in grid.flat[len(frames):]:
         axes.set_visible(False)
     for axes in grid[-1]:
         axes.set_xlabel("x [m]", fontsize=9)
     for axes in grid[:, 0]:
         axes.set_ylabel("y [m]", fontsize=9)
-    bar = figure.colorbar(particles, ax=grid, shrink=0.9, aspect=30, pad=0.02, extend="both" if len(frames) else "neither")
+    bar = figure.colorbar(particles, ax=grid, shrink=0.9, aspect=30, pad=0.02, extend=extend)
     bar.set_label(f"{field.replace('_', ' ')} [{run.unit(field)}]", fontsize=9)
     bar.ax.tick_params(labelsize=8)
     bar.outline.set_visible(False)
-    figure.suptitle(run.scene.get("name", ""), fontsize=11)
+    if len(frames) > 1:
+        figure.suptitle(name, fontsize=11)
     return figure
 
 
@@ -137,7 +150,7 @@ def plot_bodies(run):
         ("angle [rad]", [("", np.column_stack([angle(kinematics[:, b, 3:7]) for b in range(len(run.bodies))]))]),
         ("fluid force [N]" if run.dimension == 3 else "fluid force [N/m]", [("x", wrenches[..., 0]), ("y", wrenches[..., 1])]),
     ]
-    figure, grid = plt.subplots(len(panels), 1, figsize=(WIDTH, 8), sharex=True, layout="constrained")
+    figure, grid = plt.subplots(len(panels), 1, figsize=(WIDTH + 1.5, 8), sharex=True, layout="constrained")
     for axes, (label, curves) in zip(grid, panels):
         for component, values in curves:
             for b, name in enumerate(run.bodies):
@@ -154,7 +167,7 @@ def plot_energy(run):
     unit = "J" if run.dimension == 3 else "J/m"
     kinetic, potential, elastic, work = (run.energy(n) for n in ("kinetic", "potential", "elastic", "boundary_work"))
     lost = kinetic + potential + elastic - work
-    figure, axes = plt.subplots(figsize=(WIDTH, 4.5), layout="constrained")
+    figure, axes = plt.subplots(figsize=(WIDTH + 1.5, 4.5), layout="constrained")
     axes.plot(run.times, kinetic, label="kinetic")
     axes.plot(run.times, potential - potential[0], label="potential, change")
     axes.plot(run.times, elastic - elastic[0], label="elastic, change")
@@ -162,7 +175,7 @@ def plot_energy(run):
     axes.plot(run.times, lost - lost[0], color="0.2", linestyle="--", label="total less work, change")
     axes.set_xlabel("t [s]", fontsize=9)
     axes.set_ylabel(f"energy [{unit}]", fontsize=9)
-    axes.legend(fontsize=8, frameon=False)
+    axes.legend(fontsize=8, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     tidy(axes)
     figure.suptitle(f"{run.scene.get('name', '')}: energy of the fluid", fontsize=11)
     return figure

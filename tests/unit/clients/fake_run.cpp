@@ -52,6 +52,8 @@ Message FakeRun::welcome() const {
   scene.set_name("fake \"scene\" & more");
   scene.set_dimension(2);
   scene.set_spacing(0.1);
+  for (int axis = 0; axis < 2; ++axis) scene.mutable_domain()->add_max(2);
+  scene.mutable_domain()->add_open(Y_MAX);
   for (int b = 0; b < bodies; ++b) {
     Body& body = *scene.add_body();
     body.set_name("body" + std::to_string(b));
