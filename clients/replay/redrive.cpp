@@ -32,7 +32,7 @@ bool has_free_body(const Scene& scene) {
 
 std::filesystem::path write_scene(const Scene& scene, const std::string& endpoint) {
   const std::filesystem::path socket(endpoint.substr(std::string("ipc://").size()));
-  const auto path = socket.parent_path() / "recorded.scene";
+  auto path = socket.parent_path() / "recorded.scene";
   std::string text;
   google::protobuf::TextFormat::PrintToString(scene, &text);
   std::ofstream(path) << text;

@@ -69,7 +69,7 @@ def draw_frame(axes, run, frame, field, limits, corners, front, title):
     particles.set_clim(*limits)
     axes.add_collection(particles)
     for line in shapes.walls(run.scene):
-        axes.plot(*np.minimum(line, corners[1]).T, color="0.55", linewidth=1.2, clip_on=False, zorder=3)
+        axes.plot(*np.minimum(line, corners[1]).T, color="0.55", linewidth=1.2, zorder=3)
     for body, row in zip(run.scene.get("body", []), run.body_kinematics(frame)):
         axes.add_patch(Polygon(shapes.placed(body, row), facecolor="0.82", edgecolor="0.2", linewidth=0.8, zorder=4))
     if front:

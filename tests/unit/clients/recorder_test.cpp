@@ -41,7 +41,7 @@ class RecorderTest : public testing::Test {
   }
 
   const TemporaryDirectory directory_;
-  const FakeRun run_;
+  const FakeRun run_{};
   FakeServer server_{"ipc://" + (directory_ / "server").string()};
   RecordOptions options_{.endpoint = "ipc://" + (directory_ / "server").string(),
                          .output = directory_ / "run.h5",

@@ -43,7 +43,7 @@ class PublicationTest : public testing::Test {
   }
 
   const TemporaryDirectory directory_;
-  const FakeRun run_;
+  const FakeRun run_{};
   PublicationOptions options_;
   std::atomic<bool> stop_{false};
   zmq::context_t context_;
