@@ -5,6 +5,7 @@
 
 #include "clients/record/connection.hpp"
 #include "clients/recording/writer.hpp"
+#include "clients/recording/xdmf.hpp"
 #include "protocol/framing.hpp"
 
 namespace sluice::clients {
@@ -129,6 +130,11 @@ class Recorder {
 
   void finish(const std::string& reason, const std::string& detail, double wall_seconds = 0) {
     writer_->finish(reason, detail, wall_seconds);
+    try {
+      write_xdmf(options_.output);
+    } catch (const std::exception& error) {
+      spdlog::warn("the recording has no companion for ParaView: {}", error.what());
+    }
     outcome_.reason = reason;
     outcome_.detail = detail;
   }

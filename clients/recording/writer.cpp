@@ -7,7 +7,6 @@
 #include "clients/recording/exchange_table.hpp"
 #include "clients/recording/frame_table.hpp"
 #include "clients/recording/prologue.hpp"
-#include "clients/recording/xdmf.hpp"
 #include "protocol/sim_time.hpp"
 
 namespace sluice::clients {
@@ -68,7 +67,6 @@ class Writer::File {
     file_.reset("close the file");
   }
 
-  [[nodiscard]] const std::filesystem::path& path() const { return output_.path(); }
   [[nodiscard]] std::uint64_t frames() const { return frames_->length(); }
   [[nodiscard]] std::uint64_t exchanges() const { return exchanges_->length(); }
 
@@ -134,7 +132,6 @@ void Writer::flush() {
 
 void Writer::finish(const std::string& reason, const std::string& detail, double wall_seconds) {
   guarded([&] { file_->finish(reason, detail, wall_seconds); });
-  write_xdmf(file_->path());
 }
 
 }  // namespace sluice::clients

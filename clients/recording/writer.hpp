@@ -26,7 +26,7 @@ class Writer {
   void write(const protocol::Message& message);
   // Hands everything written so far to the operating system.
   void flush();
-  // Records how the run ended, closes the file and writes the XDMF companion beside it.
+  // Records how the run ended and closes the file.
   void finish(const std::string& reason, const std::string& detail, double wall_seconds = 0);
 
  private:

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "clients/recording/writer.hpp"
+#include "clients/recording/xdmf.hpp"
 #include "protocol/version.hpp"
 
 namespace sluice::clients::test {
@@ -128,6 +129,7 @@ void record(const FakeRun& run, const std::filesystem::path& path) {
     writer.flush();
   }
   writer.finish("FINISHED", "all steps done", 1.5);
+  write_xdmf(path);
 }
 
 void expect_same(const Message& actual, const Message& expected) {
