@@ -91,7 +91,7 @@ std::optional<Session::Inbound> Session::admit(protocol::Received received) {
   if (header.has_heartbeat()) {
     Message answer;
     answer.header.mutable_heartbeat();
-    if (!deliver(received.identity, answer)) lose(received.identity);
+    deliver(received.identity, answer);  // heartbeat() notices who is gone
     return std::nullopt;
   }
   return Inbound{peer->second.role, std::move(received.message)};
@@ -178,10 +178,13 @@ void Session::heartbeat(std::chrono::milliseconds interval) {
   if (now - last_heartbeat_ < interval) return;
   last_heartbeat_ = now;
   std::vector<std::string> lost;
-  for (const auto& [identity, peer] : peers_) {
+  for (auto& [identity, peer] : peers_) {
     Message message;
     message.header.mutable_heartbeat();
-    if (!deliver(identity, message)) lost.push_back(identity);
+    if (deliver(identity, message)) continue;
+    // What it sent before it went may still wait to be read, e.g. a recorder's last acknowledgement.
+    if (peer.unreachable) lost.push_back(identity);
+    peer.unreachable = true;
   }
   for (const std::string& identity : lost) lose(identity);
 }

@@ -51,7 +51,7 @@ class Session {
   void send(Role role, protocol::Message message);
   void refuse(Role role, const Refused& refused);
 
-  // Sends everyone a heartbeat when the last ones are older than `interval`; who cannot be reached is lost.
+  // Sends everyone a heartbeat when the last ones are older than `interval`; who cannot be reached twice is lost.
   void heartbeat(std::chrono::milliseconds interval);
 
  private:
@@ -60,6 +60,7 @@ class Session {
     std::uint64_t token;
     std::string program;
     std::string last_refusal;
+    bool unreachable = false;  // at the last heartbeat
   };
   using Peers = std::map<std::string, Peer>;  // by the ROUTER's identity of the connection
 
