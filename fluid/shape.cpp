@@ -26,17 +26,23 @@ double distance_to_segment(const Eigen::Vector2d& x, const Eigen::Vector2d& a, c
   return (x - (a + t * (b - a))).norm();
 }
 
+// Whether a ray from p along +x leaves through the edge a-b: an odd number of edges means inside.
+bool ray_crosses(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  if ((a.y() > p.y()) == (b.y() > p.y())) return false;
+  return p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+}
+
 double distance_to(const PolygonShape& polygon, const Eigen::Vector3d& x, int) {
   const Eigen::Vector2d p = x.head<2>();
-  double inside = -std::numeric_limits<double>::infinity();
+  bool inside = false;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < polygon.vertices.size(); ++k) {
     const Eigen::Vector2d& a = polygon.vertices[k];
     const Eigen::Vector2d& b = polygon.vertices[(k + 1) % polygon.vertices.size()];
-    inside = std::max(inside, outward_normal(a, b).dot(p - a));
+    inside = inside != ray_crosses(p, a, b);
     nearest = std::min(nearest, distance_to_segment(p, a, b));
   }
-  return inside < 0.0 ? inside : nearest;
+  return inside ? -nearest : nearest;
 }
 
 double thickness_of(const BoxShape& box, int dimension) {

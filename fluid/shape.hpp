@@ -13,7 +13,7 @@ struct BoxShape {
 struct BallShape {  // a disc in two dimensions
   double radius;
 };
-struct PolygonShape {  // convex, counter-clockwise, two dimensions
+struct PolygonShape {  // simple and counter-clockwise; convex where it is a body's; two dimensions
   std::vector<Eigen::Vector2d> vertices;
 };
 using Shape = std::variant<BoxShape, BallShape, PolygonShape>;

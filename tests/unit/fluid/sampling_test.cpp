@@ -112,5 +112,13 @@ TEST(Walls, VolumesFillTheLayersOfAnyBox) {
   EXPECT_NEAR(total(walls.volume), 1.63 * 1.56 - 1.03 * 0.96, 1e-12);
 }
 
+// A region need not be convex: an L of 3 x 3 cells less its upper right 2 x 2.
+TEST(Fill, AnLHasNoParticlesInItsNotch) {
+  const PolygonShape l{{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}};
+  const auto points = fill(l, Eigen::Vector3d::Zero(), 0.1, 2);
+  EXPECT_EQ(points.size(), 500u);
+  for (const Eigen::Vector3d& x : points) EXPECT_FALSE(x.x() > 1 && x.y() > 1) << x.transpose();
+}
+
 }  // namespace
 }  // namespace sluice::fluid
