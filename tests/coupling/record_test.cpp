@@ -105,7 +105,6 @@ TEST(BackPressure, HoldsTheRunUntilTheRecorderAcknowledges) {
 
   // And nothing was dropped.
   recorder.acknowledge(sequence);
-  std::uint64_t frames = 0, logs = 0;
   bool ended = false;
   while (!ended) {
     const auto message = recorder.pull();
@@ -113,8 +112,6 @@ TEST(BackPressure, HoldsTheRunUntilTheRecorderAcknowledges) {
     ASSERT_EQ(message->header.sequence(), ++sequence);
     recorder.acknowledge(sequence);
     ended = message->header.has_end();
-    frames += message->header.has_frame();
-    logs += message->header.has_exchange_log();
   }
   EXPECT_EQ(sequence, 101u + 100u + 1u);
   EXPECT_EQ(server.outcome().reason, End::FINISHED);
