@@ -159,7 +159,7 @@ Boundary sample_ball(const BallShape& ball, double spacing, int layers, int dime
 }  // namespace
 
 Boundary sample_body(const Shape& shape, double spacing, double support, int dimension) {
-  const int layers = static_cast<int>(std::ceil(support / spacing - 1e-9));
+  const int layers = layer_count(support, spacing);
   if (const auto* ball = std::get_if<BallShape>(&shape))
     return sample_ball(*ball, spacing, layers, dimension);
   const bool thin = thickness(shape, dimension) < 2.0 * support - 1e-9;

@@ -47,7 +47,6 @@ GalerkinSolver<Dim>::GalerkinSolver(const Setup& setup)
       fluid_(make_particles<Dim>(setup, model_.eos)),
       boundary_(setup),
       search_(model_.kernel.support(), kSkin * model_.kernel.support()),
-      velocity_gradient_(fluid_.size(), Mat<Dim>::Zero()),
       bodies_(setup.bodies.size()),
       wrench_(setup.bodies.size() + 1),
       measure_wall_force_(setup.measure_wall_force),
@@ -116,7 +115,6 @@ void GalerkinSolver<Dim>::compute_gradients() {
     sweep.gather(search_.boundary_near_fluid(i), boundary_.node());
     const Gradients<Dim> gradients = sweep.finish();
     fluid_.fit[i] = gradients.fit;
-    velocity_gradient_[i] = gradients.L;
     fluid_.source[i].grad_rho = gradients.grad_rho;
     fluid_.source[i].strain = strain_rate<Dim>(gradients.L);
   });
@@ -131,7 +129,7 @@ void GalerkinSolver<Dim>::advance_density(double dt) {
   const double acoustic_time = model_.h / model_.eos.sound_speed();
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
     double& rho = fluid_.node[i].rho;
-    rho += dt * (fluid_.density_rate[i] - rho * velocity_gradient_[i].trace());
+    rho += dt * (fluid_.density_rate[i] - rho * fluid_.source[i].strain.trace());
     if (fluid_.fit[i].floored) rho = rho0 + std::max(0.0, rho - rho0) / (1.0 + dt / acoustic_time);
   });
 }

@@ -48,7 +48,6 @@ class GalerkinSolver final : public Solver {
   Particles<Dim> fluid_;
   BoundaryParticles<Dim> boundary_;
   NeighborSearch<Dim> search_;
-  std::vector<Mat<Dim>> velocity_gradient_;
   std::vector<Kinematics> bodies_;
   std::vector<Reaction<Dim>> reaction_;  // on the active boundary particles
   std::vector<Wrench> wrench_;           // walls, then the bodies

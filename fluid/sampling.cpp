@@ -4,6 +4,10 @@
 
 namespace sluice::fluid {
 
+int layer_count(double support, double spacing) {
+  return static_cast<int>(std::ceil(support / spacing - 1e-9));
+}
+
 double particle_volume(double spacing, int dimension) {
   return dimension == 2 ? spacing * spacing : spacing * spacing * spacing;
 }
@@ -53,10 +57,6 @@ Axis divide(double min, double max, bool wall_below, bool wall_above, double spa
 }
 
 const Axis kFlat{{0.0}, {1.0}, {true}};  // the third axis of a plane
-
-int layer_count(double support, double spacing) {
-  return static_cast<int>(std::ceil(support / spacing - 1e-9));
-}
 
 }  // namespace
 

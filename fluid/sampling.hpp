@@ -15,6 +15,9 @@ std::vector<Eigen::Vector3d> fill(const Shape& shape, const Eigen::Vector3d& cen
 // Volume of one lattice particle so that box regions hold exactly their mass [m^3], [m^2] in 2D.
 double particle_volume(double spacing, int dimension);
 
+// Layers of boundary particles that fill a support.
+int layer_count(double support, double spacing);
+
 // Wall layers outside the box min..max, `support` [m] deep. closed[2 a] and closed[2 a + 1] say whether the
 // lower and upper side of axis a has a wall.
 Boundary sample_walls(const Eigen::Vector3d& min, const Eigen::Vector3d& max,
