@@ -44,7 +44,7 @@ std::vector<FlatFace> faces_of(const PolygonShape& polygon, int) {
   return edges(polygon.vertices);
 }
 
-// Calls visit(position, volume) for the points of the face's layers.
+// Calls visit(position, volume, depth) for the points of the face's layers.
 template <typename Visit>
 void for_layers(const FlatFace& face, double spacing, int layers, const Visit& visit) {
   const int n1 = std::max(1, static_cast<int>(std::lround(face.length1 / spacing)));
@@ -55,7 +55,7 @@ void for_layers(const FlatFace& face, double spacing, int layers, const Visit& v
       for (int a = 0; a < n1; ++a)
         visit(face.origin + (a + 0.5) * d1 * face.e1 + (b + 0.5) * d2 * face.e2 -
                   (l + 0.5) * spacing * face.normal,
-              d1 * (face.length2 > 0 ? d2 : 1.0) * spacing);
+              d1 * (face.length2 > 0 ? d2 : 1.0) * spacing, (l + 0.5) * spacing);
 }
 
 // Every face with layers of its own, which may reach through the plate: only fluid in front of the face sees
@@ -64,9 +64,10 @@ Boundary thin_plate(const std::vector<FlatFace>& faces, double spacing, int laye
   Boundary plate;
   for (std::size_t f = 0; f < faces.size(); ++f) {
     plate.faces.push_back({faces[f].origin, faces[f].normal});
-    for_layers(faces[f], spacing, layers, [&](const Eigen::Vector3d& x, double volume) {
+    for_layers(faces[f], spacing, layers, [&](const Eigen::Vector3d& x, double volume, double depth) {
       plate.position.push_back(x);
       plate.volume.push_back(volume);
+      plate.to_surface.push_back(depth * faces[f].normal);
       plate.face.push_back(static_cast<std::int32_t>(f));
     });
   }
@@ -78,7 +79,7 @@ Boundary sample_thick(const PolygonShape& polygon, double spacing, double suppor
   Boundary body;
   const std::vector<FlatFace> faces = edges(polygon.vertices);
   for (std::size_t f = 0; f < faces.size(); ++f)
-    for_layers(faces[f], spacing, layers, [&](const Eigen::Vector3d& x, double volume) {
+    for_layers(faces[f], spacing, layers, [&](const Eigen::Vector3d& x, double volume, double) {
       const double own = (x - faces[f].origin).dot(faces[f].normal);
       for (std::size_t other = 0; other < faces.size(); ++other) {
         const double d = (x - faces[other].origin).dot(faces[other].normal);
@@ -87,8 +88,18 @@ Boundary sample_thick(const PolygonShape& polygon, double spacing, double suppor
       if (own < -support) return;
       body.position.push_back(x);
       body.volume.push_back(volume);
+      body.to_surface.push_back(-own * faces[f].normal);
     });
   return body;
+}
+
+// From x, inside the box, to the nearest of its faces.
+Eigen::Vector3d to_face(const BoxShape& box, const Eigen::Vector3d& x, int dimension) {
+  int nearest = 0;
+  const Eigen::Vector3d depth = box.half_size - x.cwiseAbs();
+  for (int a = 1; a < dimension; ++a)
+    if (depth[a] < depth[nearest]) nearest = a;
+  return (x[nearest] < 0.0 ? -depth[nearest] : depth[nearest]) * Eigen::Vector3d::Unit(nearest);
 }
 
 // A box as a lattice of cells that fit it, hollow where no fluid reaches.
@@ -113,6 +124,7 @@ Boundary sample_thick(const BoxShape& box, double spacing, int layers, int dimen
         if (!shell) continue;
         body.position.push_back(x);
         body.volume.push_back(width.prod());
+        body.to_surface.push_back(to_face(box, x, dimension));
       }
   return body;
 }
@@ -151,6 +163,10 @@ Boundary sample_ball(const BallShape& ball, double spacing, int layers, int dime
     for (const Eigen::Vector3d& x : shell_points(count == 1 ? 0.0 : radius, count, dimension)) {
       body.position.push_back(x);
       body.volume.push_back(volume);
+      // A particle at the centre is as near to one side as to the other.
+      const Eigen::Vector3d outward =
+          x.norm() > 0.0 ? Eigen::Vector3d(x.normalized()) : Eigen::Vector3d::UnitX();
+      body.to_surface.push_back((ball.radius - x.norm()) * outward);
     }
   }
   return body;

@@ -10,6 +10,9 @@ BoundaryParticles<Dim>::BoundaryParticles(const Setup& setup) {
   append(setup.walls, setup.liquid.density);
   for (const Boundary& body : setup.bodies) append(body, setup.liquid.density);
   first_.push_back(node_.size());
+  velocity_.assign(size(), Vec<Dim>::Zero());
+  for (std::size_t w = 0; w < setup.walls.velocity.size(); ++w)
+    velocity_[w] = narrow<Dim>(setup.walls.velocity[w]);
   acceleration_.assign(size(), Vec<Dim>::Zero());
   pressure.assign(size(), 0.0);
   dilation.assign(size(), 1.0);
@@ -22,11 +25,14 @@ void BoundaryParticles<Dim>::append(const Boundary& boundary, double rest_densit
   const bool is_plate = !boundary.faces.empty();
   plate_of_body_.push_back(is_plate ? static_cast<std::int32_t>(plates_.size()) : -1);
   first_.push_back(node_.size());
+  no_slip_.push_back(boundary.no_slip);
+  assert(boundary.to_surface.size() == boundary.position.size());
   Plate<Dim> plate{static_cast<std::size_t>(body), {}, Vec<Dim>::Zero(), 0.0};
   for (std::size_t k = 0; k < boundary.position.size(); ++k) {
     const Vec<Dim> x = narrow<Dim>(boundary.position[k]);
     node_.push_back({x, Vec<Dim>::Zero(), boundary.volume[k], rest_density});
     local_.push_back(x);
+    append_surface(boundary.to_surface[k], body == 0);
     sampled_volume_.push_back(boundary.volume[k]);
     body_.push_back(body);
     face_.push_back(is_plate ? boundary.face[k] : -1);
@@ -39,6 +45,20 @@ void BoundaryParticles<Dim>::append(const Boundary& boundary, double rest_densit
   }
   plates_.push_back(plate);
   local_faces_.push_back(boundary.faces);
+}
+
+// The tank is axis-parallel: where the way to its surface has several components, there are several faces.
+template <int Dim>
+void BoundaryParticles<Dim>::append_surface(const Eigen::Vector3d& to_surface, bool is_wall) {
+  const Vec<Dim> way = narrow<Dim>(to_surface);
+  Surface<Dim> surface{way.normalized(), way.norm(), Mat<Dim>::Zero()};
+  if (is_wall) {
+    for (int a = 0; a < Dim; ++a) surface.across(a, a) = way[a] != 0.0 ? 1.0 : 0.0;
+  } else {
+    surface.across = surface.normal * surface.normal.transpose();
+  }
+  local_normal_.push_back(surface.normal);
+  surface_.push_back(surface);
 }
 
 template <int Dim>
@@ -54,9 +74,11 @@ void BoundaryParticles<Dim>::move_body(std::size_t body, const Kinematics& k) {
   for (std::size_t w = first_[body]; w < first_[body + 1]; ++w) {
     const Eigen::Vector3d r = R * widen<Dim>(local_[w]);
     node_[w].x = narrow<Dim>(k.position + r);
-    node_[w].v = narrow<Dim>(k.velocity + k.angular_velocity.cross(r));
+    velocity_[w] = narrow<Dim>(k.velocity + k.angular_velocity.cross(r));
     acceleration_[w] = narrow<Dim>(k.acceleration + k.angular_acceleration.cross(r) +
                                    k.angular_velocity.cross(k.angular_velocity.cross(r)));
+    surface_[w].normal = narrow<Dim>(R * widen<Dim>(local_normal_[w]));
+    surface_[w].across = surface_[w].normal * surface_[w].normal.transpose();
   }
   if (plate_of_body_[body] >= 0) move_plate(k, plates_[static_cast<std::size_t>(plate_of_body_[body])]);
 }

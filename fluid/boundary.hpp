@@ -27,6 +27,15 @@ struct Plate {
   double radius;  // of the ball around `center` that holds the plate's faces [m]
 };
 
+// The surface as a boundary particle behind it sees it.
+template <int Dim>
+struct Surface {
+  Vec<Dim> normal = Vec<Dim>::Zero();  // into the fluid
+  double depth = 0;                    // of the particle below it [m]
+  // Projects on the normals of the faces there: one, or several behind an edge of the tank.
+  Mat<Dim> across = Mat<Dim>::Zero();
+};
+
 // All boundary particles: the walls first, then body after body. Walls are body 0, at rest; the scene's body
 // b is body b + 1 here.
 template <int Dim>
@@ -40,7 +49,12 @@ class BoundaryParticles {
   [[nodiscard]] std::size_t size() const { return node_.size(); }
   [[nodiscard]] std::vector<Node<Dim>>& node() { return node_; }
   [[nodiscard]] const std::vector<Node<Dim>>& node() const { return node_; }
+  // Of the body there; node().v is that of the fluid that the particle stands in for.
+  [[nodiscard]] const Vec<Dim>& velocity(std::size_t w) const { return velocity_[w]; }
   [[nodiscard]] const Vec<Dim>& acceleration(std::size_t w) const { return acceleration_[w]; }
+  // The surface as the particle sees it.
+  [[nodiscard]] const Surface<Dim>& surface(std::size_t w) const { return surface_[w]; }
+  [[nodiscard]] bool no_slip(std::size_t w) const { return no_slip_[static_cast<std::size_t>(body_[w])]; }
   [[nodiscard]] std::int32_t body(std::size_t w) const { return body_[w]; }
   // Index into plates()[plate(w)].faces of a plate's particle; plate(w) is -1 for all others.
   [[nodiscard]] std::int32_t face(std::size_t w) const { return face_[w]; }
@@ -58,12 +72,15 @@ class BoundaryParticles {
 
  private:
   void append(const Boundary& boundary, double rest_density);
+  void append_surface(const Eigen::Vector3d& to_surface, bool is_wall);
   void move_body(std::size_t body, const Kinematics& kinematics);
   void move_plate(const Kinematics& kinematics, Plate<Dim>& plate);
 
   std::vector<Node<Dim>> node_;
-  std::vector<Vec<Dim>> local_;
-  std::vector<Vec<Dim>> acceleration_;
+  std::vector<Vec<Dim>> local_, local_normal_;
+  std::vector<Vec<Dim>> velocity_, acceleration_;
+  std::vector<Surface<Dim>> surface_;
+  std::vector<bool> no_slip_;  // per body
   std::vector<double> sampled_volume_;
   std::vector<std::int32_t> body_, face_;
   std::vector<std::size_t> first_;  // of every body, and the end

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "fluid/boundary.hpp"
+#include "fluid/extrapolation.hpp"
 #include "fluid/model.hpp"
 
 namespace sluice::fluid {
@@ -20,41 +21,70 @@ double wetness(const Model<Dim>& model, double head, double acceleration) {
   return std::clamp(0.5 + 2.0 * head / scale, 0.0, 1.0);
 }
 
-// What a boundary particle w takes over from the fluid: pressure and density, extrapolated with the
-// hydrostatic gradient in the boundary's own frame (S. Adami, X. Hu, N. Adams, J. Comput. Phys. 231, 2012,
-// eq. 27),
-//   p_w = sum_f (p_f + rho_f (g - a_w) . x_wf) W_wf / sum_f W_wf,     rho_w alike with dp/c0^2,
-// and volume ratio and viscous stress, averaged alike. Tension is not passed on: a wall does not hold the
-// fluid.
+// The viscous stress at boundary particle w. Past a no-slip surface it goes on linearly; along a surface on
+// which the fluid slides there is no shear, and the mirror image has its sign changed.
+template <int Dim>
+Mat<Dim> boundary_stress(const Model<Dim>& model, const Particles<Dim>& fluid,
+                         std::span<const std::uint32_t> neighbors, std::size_t w,
+                         const BoundaryParticles<Dim>& boundary) {
+  using Flat = Eigen::Matrix<double, Dim * Dim, 1>;
+  Extrapolation<Dim, Dim * Dim> stress;
+  for (const std::uint32_t f : neighbors) {
+    const Vec<Dim> x_fw = fluid.node[f].x - boundary.node()[w].x;
+    stress.add(model.kernel.value(x_fw.squaredNorm()), x_fw, fluid.stress[f].reshaped());
+  }
+  if (boundary.no_slip(w)) {
+    const Flat at_w = stress.mean() - stress.slope(model.moment_floor) * stress.centroid();
+    return at_w.template reshaped<Eigen::ColMajor>(Dim, Dim);
+  }
+  const Mat<Dim> mean = Flat(stress.mean()).template reshaped<Eigen::ColMajor>(Dim, Dim);
+  const Mat<Dim> reflection = Mat<Dim>::Identity() - 2.0 * boundary.surface(w).across;
+  return reflection * mean * reflection;
+}
+
+// What a boundary particle w takes over from the fluid: pressure and density, continued along the surface and
+// with the hydrostatic gradient in the boundary's own frame across it (after S. Adami, X. Hu, N. Adams,
+// J. Comput. Phys. 231, 2012, eq. 27, where the gradient along the surface is hydrostatic too),
+//   p_w = sum_f (p_f + rho_f (g - a_w) . n n . x_wf) W_wf / sum_f W_wf + slope . (x_wf)_along,
+// rho_w alike with dp/c0^2; and volume ratio, averaged, and viscous stress. Tension is not passed on: a wall
+// does not hold the fluid.
 template <int Dim>
 void extrapolate(const Model<Dim>& model, const Particles<Dim>& fluid,
                  std::span<const std::uint32_t> neighbors, std::size_t w, BoundaryParticles<Dim>& boundary) {
   Node<Dim>& node = boundary.node()[w];
+  const Surface<Dim>& surface = boundary.surface(w);
   const Vec<Dim> g_minus_a = model.gravity - boundary.acceleration(w);
+  const Vec<Dim> pull = surface.across * g_minus_a;
   const double per_c2 = 1.0 / (model.eos.sound_speed() * model.eos.sound_speed());
-  double sum_W = 0, sum_p = 0, sum_rho = 0, sum_V = 0, sum_dynamic = 0;
-  Mat<Dim> sum_stress = Mat<Dim>::Zero();
+  Extrapolation<Dim, 2> state;  // pressure and density
+  double sum_V = 0, sum_dynamic = 0;
   for (const std::uint32_t f : neighbors) {
     const Node<Dim>& n = fluid.node[f];
-    const Vec<Dim> x_wf = node.x - n.x;
-    const double r2 = x_wf.squaredNorm();
+    const Vec<Dim> x_fw = n.x - node.x;
+    const double r2 = x_fw.squaredNorm();
     const double W = model.kernel.value(r2);
-    const double dp = n.rho * g_minus_a.dot(x_wf);
-    const double approach = std::max(0.0, (n.v - node.v).dot(x_wf));
-    sum_W += W;
-    if (!fluid.fit[f].floored) sum_p += W * (fluid.pressure[f] + dp);
-    sum_rho += W * (n.rho + dp * per_c2);
+    const double dp = -n.rho * pull.dot(x_fw);
+    const double approach = std::max(0.0, (boundary.velocity(w) - n.v).dot(x_fw));
+    state.add(W, x_fw, {fluid.fit[f].floored ? 0.0 : fluid.pressure[f] + dp, n.rho + dp * per_c2});
     sum_V += W * n.volume;
     sum_dynamic += W * 0.5 * n.rho * approach * approach / (r2 + model.tiny_r2);
-    if (!fluid.stress.empty()) sum_stress += W * fluid.stress[f];
   }
-  const bool has_fluid = sum_W > 0.0;
-  const double wet = has_fluid ? wetness(model, (sum_p + sum_dynamic) / sum_W, g_minus_a.norm()) : 0.0;
-  boundary.pressure[w] = has_fluid ? wet * std::max(0.0, sum_p / sum_W) : 0.0;
-  boundary.dilation[w] = has_fluid ? wet * sum_V / (sum_W * model.first_volume) : 1.0;
-  node.rho = has_fluid ? sum_rho / sum_W : model.eos.rest_density();
+  if (state.empty()) {
+    boundary.pressure[w] = 0.0;
+    boundary.dilation[w] = 1.0;
+    node.rho = model.eos.rest_density();
+    if (!boundary.stress.empty()) boundary.stress[w] = Mat<Dim>::Zero();
+    return;
+  }
+  const double per_W = 1.0 / state.weight();
+  const Vec<Dim> along = state.centroid() - surface.across * state.centroid();
+  const Eigen::Vector2d at_w = state.mean() - state.slope(model.moment_floor) * along;
+  const double wet = wetness(model, at_w[0] + sum_dynamic * per_W, g_minus_a.norm());
+  boundary.pressure[w] = wet * std::max(0.0, at_w[0]);
+  boundary.dilation[w] = wet * sum_V * per_W / model.first_volume;
+  node.rho = at_w[1];
   if (!boundary.stress.empty())
-    boundary.stress[w] = has_fluid ? Mat<Dim>(wet * sum_stress / sum_W) : Mat<Dim>::Zero();
+    boundary.stress[w] = wet * boundary_stress(model, fluid, neighbors, w, boundary);
 }
 
 }  // namespace sluice::fluid

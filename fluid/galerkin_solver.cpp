@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "fluid/boundary_sweep.hpp"
+#include "fluid/boundary_velocity.hpp"
 #include "fluid/gradient_sweep.hpp"
 #include "fluid/stress.hpp"
 
@@ -32,6 +33,7 @@ Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos) {
   fluid.acceleration.assign(n, Vec<Dim>::Zero());
   fluid.density_rate.assign(n, 0.0);
   fluid.pressure.assign(n, 0.0);
+  if (setup.formulation.shifting > 0.0) fluid.L.assign(n, Mat<Dim>::Zero());
   if (setup.liquid.viscosity > 0.0) fluid.stress.assign(n, Mat<Dim>::Zero());
   fluid.fit.resize(n);
   fluid.source.resize(n);
@@ -46,7 +48,9 @@ GalerkinSolver<Dim>::GalerkinSolver(const Setup& setup)
       parallel_(setup.threads),
       fluid_(make_particles<Dim>(setup, model_.eos)),
       boundary_(setup),
-      search_(model_.kernel.support(), kSkin * model_.kernel.support()),
+      search_(model_.kernel.support(), kSkin * model_.kernel.support(), setup.period),
+      period_(setup.period),
+      shifting_(setup.formulation.shifting),
       bodies_(setup.bodies.size()),
       wrench_(setup.bodies.size() + 1),
       measure_wall_force_(setup.measure_wall_force),
@@ -56,16 +60,19 @@ template <int Dim>
 void GalerkinSolver<Dim>::start(std::span<const Kinematics> bodies) {
   move_boundary(bodies);
   search_.update(fluid_, boundary_, parallel_);
+  mirror_velocities();
   // The boundary's density enters the gradients and needs the fluid's pressure: one sweep to fill it.
   compute_gradients();
   compute_stress();
   extrapolate_to_boundary();
   update_volumes();
+  search_.halo().refresh_nodes(fluid_);
   compute_gradients();
   compute_stress();
   extrapolate_to_boundary();
   compute_forces();
   collect_wrenches();
+  if (shifting_.is_used()) shifting_.compute(model_, fluid_, boundary_, search_, parallel_);
   update_volumes();
 }
 
@@ -77,14 +84,18 @@ void GalerkinSolver<Dim>::step(double dt, std::span<const Kinematics> bodies) {
   const double power_before = boundary_power();
   kick(0.5 * dt);
   drift(dt);
+  if (shifting_.is_used()) shifting_.apply(dt, fluid_, parallel_);
   move_boundary(bodies);
   search_.update(fluid_, boundary_, parallel_);
+  search_.halo().refresh_nodes(fluid_);
+  mirror_velocities();
   compute_gradients();
   advance_density(dt);
   compute_stress();
   extrapolate_to_boundary();
   compute_forces();
   collect_wrenches();
+  if (shifting_.is_used()) shifting_.compute(model_, fluid_, boundary_, search_, parallel_);
   update_volumes();
   kick(0.5 * dt);
   boundary_work_ += 0.5 * dt * (power_before + boundary_power());
@@ -106,6 +117,14 @@ void GalerkinSolver<Dim>::move_boundary(std::span<const Kinematics> bodies) {
   boundary_.move(bodies);
 }
 
+template <int Dim>
+void GalerkinSolver<Dim>::mirror_velocities() {
+  const auto& active = search_.active_boundary();
+  parallel_.for_each(active.size(), [&](std::size_t a) {
+    mirror_velocity<Dim>(model_, fluid_, search_.fluid_near_active(a), active[a], boundary_);
+  });
+}
+
 // Sweep 1.
 template <int Dim>
 void GalerkinSolver<Dim>::compute_gradients() {
@@ -117,6 +136,7 @@ void GalerkinSolver<Dim>::compute_gradients() {
     fluid_.fit[i] = gradients.fit;
     fluid_.source[i].grad_rho = gradients.grad_rho;
     fluid_.source[i].strain = strain_rate<Dim>(gradients.L);
+    if (shifting_.is_used()) fluid_.L[i] = gradients.L;
   });
 }
 
@@ -148,6 +168,7 @@ void GalerkinSolver<Dim>::compute_stress() {
     }
     set_source<Dim>(fluid_.node[i].volume, sigma, fluid_.fit[i], fluid_.source[i]);
   });
+  search_.halo().refresh_sources(fluid_);
 }
 
 template <int Dim>
@@ -190,6 +211,19 @@ void GalerkinSolver<Dim>::collect_wrenches() {
   }
 }
 
+// Boundary particles of bodies always, of the walls on request, and those only once: not beyond a periodic
+// side.
+template <int Dim>
+bool GalerkinSolver<Dim>::is_measured(std::size_t w) const {
+  if (boundary_.body(w) > 0) return true;
+  if (!measure_wall_force_) return false;
+  const Vec<Dim>& x = boundary_.node()[w].x;
+  for (int a = 0; a < Dim; ++a)
+    if (period_.length[a] > 0.0 && (x[a] < period_.lower[a] || x[a] >= period_.lower[a] + period_.length[a]))
+      return false;
+  return true;
+}
+
 // V = m/rho, for the next step: until here sweep 2 needed the volumes of sweep 1.
 template <int Dim>
 void GalerkinSolver<Dim>::update_volumes() {
@@ -218,7 +252,10 @@ std::span<const Wrench> GalerkinSolver<Dim>::wrenches() const {
 
 template <int Dim>
 double GalerkinSolver<Dim>::largest_step(double max_speed) const {
-  return courant_ * model_.h / (model_.eos.sound_speed() + max_speed);
+  const double acoustic = model_.h / (model_.eos.sound_speed() + max_speed);
+  const double viscous =
+      model_.h * model_.h * model_.eos.rest_density() / (model_.artificial_viscosity + 1e-300);
+  return courant_ * std::min(acoustic, viscous);
 }
 
 template <int Dim>
@@ -255,7 +292,8 @@ Diagnostics GalerkinSolver<Dim>::diagnostics() const {
   const auto& active = search_.active_boundary();
   for (std::size_t a = 0; a < active.size(); ++a)
     for (const std::uint32_t i : search_.fluid_near_active(a))
-      d.elastic += guard_energy<Dim>(model_, fluid_.node[i].x - boundary_.node()[active[a]].x);
+      if (i < fluid_.size())
+        d.elastic += guard_energy<Dim>(model_, fluid_.node[i].x - boundary_.node()[active[a]].x);
   d.boundary_work = boundary_work_;
   return d;
 }

@@ -6,6 +6,7 @@
 #include "fluid/neighbor_search.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/particles.hpp"
+#include "fluid/shifting.hpp"
 #include "fluid/solver.hpp"
 
 namespace sluice::fluid {
@@ -31,6 +32,7 @@ class GalerkinSolver final : public Solver {
   void kick(double dt);
   void drift(double dt);
   void move_boundary(std::span<const Kinematics> bodies);
+  void mirror_velocities();
   void compute_gradients();
   void advance_density(double dt);
   void compute_stress();
@@ -39,8 +41,7 @@ class GalerkinSolver final : public Solver {
   void collect_wrenches();
   void update_volumes();
 
-  // Bodies always, the walls on request.
-  [[nodiscard]] bool is_measured(std::size_t w) const { return measure_wall_force_ || boundary_.body(w) > 0; }
+  [[nodiscard]] bool is_measured(std::size_t w) const;
   [[nodiscard]] double boundary_power() const;
 
   Model<Dim> model_;
@@ -48,6 +49,8 @@ class GalerkinSolver final : public Solver {
   Particles<Dim> fluid_;
   BoundaryParticles<Dim> boundary_;
   NeighborSearch<Dim> search_;
+  Period period_;
+  Shifting<Dim> shifting_;
   std::vector<Kinematics> bodies_;
   std::vector<Reaction<Dim>> reaction_;  // on the active boundary particles
   std::vector<Wrench> wrench_;           // walls, then the bodies

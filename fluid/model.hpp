@@ -19,14 +19,16 @@ struct Model {
         mu(setup.liquid.viscosity),
         density_diffusion(2.0 * setup.formulation.density_diffusion * h * setup.liquid.sound_speed),
         artificial_viscosity(setup.formulation.artificial_viscosity * h * setup.liquid.sound_speed *
-                             setup.liquid.density),
-        moment_floor(setup.formulation.moment_floor * lattice_moment<Dim>(kernel, setup.spacing)),
+                                 setup.liquid.density +
+                             2.0 * (Dim + 2) * setup.liquid.viscosity),
+        lattice_moment(fluid::lattice_moment<Dim>(kernel, setup.spacing)),
+        moment_floor(setup.formulation.moment_floor * lattice_moment),
         tiny_r2(1e-4 * h * h),
         guard_range(0.75 * setup.spacing),
         guard_stiffness(setup.liquid.density * setup.fluid.volume * setup.liquid.sound_speed *
                         setup.liquid.sound_speed / (setup.spacing * setup.spacing)),
         first_volume(setup.fluid.volume),
-        boundary_G(1.0 / lattice_moment<Dim>(kernel, setup.spacing)) {}
+        boundary_G(1.0 / lattice_moment) {}
 
   double spacing;  // dx [m]
   double h;        // smoothing length [m]
@@ -36,6 +38,7 @@ struct Model {
   double mu;                    // [Pa s]
   double density_diffusion;     // 2 delta h c0 [m^2/s]
   double artificial_viscosity;  // alpha h c0 rho0 [Pa s]
+  double lattice_moment;        // eigenvalue of C on the undisturbed lattice [m^2]
   double moment_floor;          // [m^2]
   double tiny_r2;               // (h/100)^2 [m^2], keeps coincident particles from a division by zero
   double guard_range;           // of the penetration guard [m]; see force_sweep.hpp

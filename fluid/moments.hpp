@@ -28,6 +28,7 @@ struct Moments {
 // sum grad N = 0 and sum x (x) grad N = I, CF (16)-(17).
 template <int Dim>
 struct Fit {
+  double m0;
   Vec<Dim> g;
   Mat<Dim> G;
   // An eigenvalue of C was below the floor: too few neighbours for a linear fit (spray).
@@ -82,6 +83,7 @@ Fit<Dim> fit(const Moments<Dim>& m, double floor) {
   } else {
     f.G = symmetric_inverse<Dim>(C);
   }
+  f.m0 = m.m0;
   f.g = -f.G * m.m1 / m.m0;
   return f;
 }

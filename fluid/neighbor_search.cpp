@@ -95,30 +95,42 @@ template <int Dim>
 void NeighborSearch<Dim>::rebuild(Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
                                   const Parallel& parallel) {
   const double reach = support_ + skin_;
+  Halo<Dim>::remove(fluid);
+  halo_.wrap(fluid);
   CellGrid<Dim> cells(fluid.node, reach);
   cells.file(fluid.node);
   sort(fluid, cells.item());
-  // Now particle k of the sorted order is item k of the grid.
+  // Now particle k of the sorted order is item k of the grid, and image k after the particles item k of its.
+  const std::vector<Node<Dim>> images = halo_.find(fluid);
+  CellGrid<Dim> image_cells(images, reach);
+  image_cells.file(images);
+  halo_.append(fluid, image_cells.item());
+  const auto for_fluid_near = [&](const Vec<Dim>& x, const auto& visit) {
+    const auto visit_row = [&](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t j = first; j < last; ++j)
+        if ((fluid.node[j].x - x).squaredNorm() < reach * reach) visit(j);
+    };
+    cells.for_rows_near(x, reach, visit_row);
+    if (images.empty()) return;
+    const auto n = static_cast<std::uint32_t>(fluid.size());
+    image_cells.for_rows_near(
+        x, reach, [&](std::uint32_t first, std::uint32_t last) { visit_row(n + first, n + last); });
+  };
 
   const std::vector<std::uint8_t> near = near_any_plate(fluid, boundary.plates(), reach);
   const auto cut = [&](std::size_t i, std::size_t j) {
-    return !near.empty() && near[i] && near[j] &&
+    return !near.empty() && j < near.size() && near[i] && near[j] &&
            separated(boundary.plates(), fluid.node[i].x, fluid.node[j].x);
   };
   fluid_ = make_list(fluid.size(), parallel, [&](std::size_t i, const auto& emit) {
-    const Vec<Dim>& x = fluid.node[i].x;
-    cells.for_rows_near(x, reach, [&](std::uint32_t first, std::uint32_t last) {
-      for (std::uint32_t j = first; j < last; ++j)
-        if (j != i && (fluid.node[j].x - x).squaredNorm() < reach * reach && !cut(i, j)) emit(j);
+    for_fluid_near(fluid.node[i].x, [&](std::uint32_t j) {
+      if (j != i && !cut(i, j)) emit(j);
     });
   });
 
   const NeighborList all = make_list(boundary.size(), parallel, [&](std::size_t w, const auto& emit) {
-    const Vec<Dim>& x = boundary.node()[w].x;
-    cells.for_rows_near(x, reach, [&](std::uint32_t first, std::uint32_t last) {
-      for (std::uint32_t j = first; j < last; ++j)
-        if ((fluid.node[j].x - x).squaredNorm() < reach * reach && visible(boundary, w, fluid.node[j].x))
-          emit(j);
+    for_fluid_near(boundary.node()[w].x, [&](std::uint32_t j) {
+      if (visible(boundary, w, fluid.node[j].x)) emit(j);
     });
   });
   active_.clear();
@@ -130,14 +142,17 @@ void NeighborSearch<Dim>::rebuild(Particles<Dim>& fluid, const BoundaryParticles
   }
   active_list_.index = all.index;
 
-  // The transpose: boundary particles of every fluid particle, in rising order.
+  // The transpose: boundary particles of every fluid particle, in rising order. Images need none.
+  const auto is_image = [&](std::uint32_t j) { return j >= fluid.size(); };
   boundary_.begin.assign(fluid.size() + 1, 0);
-  for (const std::uint32_t j : all.index) ++boundary_.begin[j + 1];
+  for (const std::uint32_t j : all.index)
+    if (!is_image(j)) ++boundary_.begin[j + 1];
   std::partial_sum(boundary_.begin.begin(), boundary_.begin.end(), boundary_.begin.begin());
-  boundary_.index.resize(all.index.size());
+  boundary_.index.resize(boundary_.begin.back());
   std::vector<std::uint64_t> next(boundary_.begin.begin(), boundary_.begin.end() - 1);
   for (const std::uint32_t w : active_)
-    for (const std::uint32_t j : all.of(w)) boundary_.index[next[j]++] = w;
+    for (const std::uint32_t j : all.of(w))
+      if (!is_image(j)) boundary_.index[next[j]++] = w;
 
   fluid_at_build_.resize(fluid.size());
   for (std::size_t i = 0; i < fluid.size(); ++i) fluid_at_build_[i] = fluid.node[i].x;

@@ -6,6 +6,7 @@
 
 #include "fluid/boundary.hpp"
 #include "fluid/cell_grid.hpp"
+#include "fluid/halo.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/particles.hpp"
 
@@ -26,7 +27,14 @@ struct NeighborList {
 template <int Dim>
 class NeighborSearch {
  public:
-  NeighborSearch(double support, double skin) : support_(support), skin_(skin) {}
+  NeighborSearch(double support, double skin, const Period& period = {})
+      : support_(support), skin_(skin), halo_(period, halo_width(support, skin)) {}
+
+  // Depth of the halo [m]: boundary particles up to one reach beyond a periodic side take over the state of
+  // fluid up to one reach from themselves.
+  static double halo_width(double support, double skin) { return 2.0 * (support + skin); }
+  // Neighbours may be images; what they are given is refreshed here.
+  [[nodiscard]] const Halo<Dim>& halo() const { return halo_; }
 
   // Rebuilds the lists if motion demands, after sorting the fluid particles by cell. Cost of the check: one
   // pass over the particles.
@@ -52,6 +60,7 @@ class NeighborSearch {
   void rebuild(Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary, const Parallel& parallel);
 
   double support_, skin_;
+  Halo<Dim> halo_;
   std::vector<Vec<Dim>> fluid_at_build_, boundary_at_build_;
   NeighborList fluid_, boundary_, active_list_;
   std::vector<std::uint32_t> active_;

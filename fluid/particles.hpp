@@ -23,11 +23,12 @@ template <int Dim>
 struct Source {
   Vec<Dim> s = Vec<Dim>::Zero();         // V sigma g
   Mat<Dim> S = Mat<Dim>::Zero();         // V sigma G
-  Mat<Dim> strain = Mat<Dim>::Zero();    // symmetric part of the velocity gradient L [1/s]
+  Mat<Dim> strain = Mat<Dim>::Zero();    // symmetric part of the velocity gradient [1/s]
   Vec<Dim> grad_rho = Vec<Dim>::Zero();  // [kg/m^4]
 };
 
-// The state of the fluid, in the order of the last sort. Arrays of n particles.
+// The state of the fluid, in the order of the last sort. Arrays of size() particles; node, pressure, stress,
+// fit and source go on with the images beyond periodic sides (halo.hpp).
 template <int Dim>
 struct Particles {
   std::vector<double> mass;            // [kg]
@@ -37,11 +38,12 @@ struct Particles {
   std::vector<std::uint32_t> id;       // index in Setup::fluid
   // Of the present step:
   std::vector<double> pressure;  // [Pa]
+  std::vector<Mat<Dim>> L;       // velocity gradient, L_ab = dv_a/dx_b [1/s]; empty without shifting
   std::vector<Mat<Dim>> stress;  // sigma + p I, the viscous part [Pa]; empty without viscosity
   std::vector<Fit<Dim>> fit;
   std::vector<Source<Dim>> source;
 
-  [[nodiscard]] std::size_t size() const { return node.size(); }
+  [[nodiscard]] std::size_t size() const { return id.size(); }
 };
 
 }  // namespace sluice::fluid

@@ -18,10 +18,19 @@ double particle_volume(double spacing, int dimension);
 // Layers of boundary particles that fill a support.
 int layer_count(double support, double spacing);
 
-// Wall layers outside the box min..max, `support` [m] deep. closed[2 a] and closed[2 a + 1] say whether the
-// lower and upper side of axis a has a wall.
-Boundary sample_walls(const Eigen::Vector3d& min, const Eigen::Vector3d& max,
-                      const std::array<bool, 6>& closed, double spacing, double support, int dimension);
+// The sides of a tank, the box min..max. Of axis a they are number 2 a (lower) and 2 a + 1 (upper).
+struct Tank {
+  Eigen::Vector3d min, max;  // [m]
+  std::array<bool, 6> closed{true, true, true, true, true, true};
+  std::array<bool, 3> periodic{false, false, false};  // then neither side of the axis is a wall
+  std::array<Eigen::Vector3d, 6> velocity = zeros();  // of a wall along itself, a conveyor belt [m/s]
+  bool no_slip = false;
+
+  static std::array<Eigen::Vector3d, 6> zeros();
+};
+
+// Wall layers outside the tank, `support` [m] deep; they go on beyond periodic sides.
+Boundary sample_walls(const Tank& tank, double spacing, double support, int dimension);
 
 // Layers inward from the shape's surface, `support` [m] deep, in the body's frame. A shape thinner than two
 // supports gets layers of its own for every face (thin-plate rule); a ball never does.

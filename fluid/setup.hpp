@@ -12,13 +12,21 @@ struct Liquid {
   double sound_speed = 0;  // c0 [m/s]
 };
 
+// h/dx at which the square (2D) or cubic (3D) lattice under pressure is stable against displacements of every
+// wave vector, with the Wendland kernel. The window is narrow, 1.446 to 1.453 and 1.48 to 1.505: outside it
+// rows of particles slide past each other (README.md, "The lattice under pressure").
+constexpr double stable_smoothing(int dimension) {
+  return dimension == 2 ? 1.45 : 1.49;
+}
+
 // Numerical parameters; README.md, "Parameters", has the measurements behind the defaults.
 struct Formulation {
-  double smoothing = 1.5;              // h/dx
-  double density_diffusion = 0.1;      // delta
-  double artificial_viscosity = 0.02;  // alpha
-  double moment_floor = 0.2;           // smallest eigenvalue of C over the lattice's
-  double courant = 0.4;                // dt (c0 + v_max) / h
+  double smoothing = stable_smoothing(2);  // h/dx
+  double density_diffusion = 0.1;          // delta
+  double artificial_viscosity = 0.02;      // alpha
+  double shifting = 0;                     // S of shifting.hpp; 0: none
+  double moment_floor = 0.2;               // smallest eigenvalue of C over the lattice's
+  double courant = 0.4;                    // dt (c0 + v_max) / h
 };
 
 // Fluid particles at the start, all of one volume. Mass is volume times the density that belongs to the
@@ -34,8 +42,11 @@ struct FluidParticles {
 // one face and acts only on fluid in front of it: outward of the plane through face_point with normal
 // face_normal.
 struct Boundary {
-  std::vector<Eigen::Vector3d> position;  // [m]
-  std::vector<double> volume;             // [m^3], [m^2] in 2D
+  std::vector<Eigen::Vector3d> position;    // [m]
+  std::vector<double> volume;               // [m^3], [m^2] in 2D
+  std::vector<Eigen::Vector3d> to_surface;  // from the particle to the nearest point of the surface [m]
+  std::vector<Eigen::Vector3d> velocity;  // of a wall along itself [m/s]; empty: none. Bodies have kinematics
+  bool no_slip = false;                   // fluid at the surface has its velocity; else it slides
   struct Face {
     Eigen::Vector3d point, normal;
   };
@@ -43,10 +54,18 @@ struct Boundary {
   std::vector<std::int32_t> face;  // per particle, index into faces; empty when faces is
 };
 
+// Sides that are one and the same: what leaves through one comes in through the other. No boundary particle
+// of a body may come near them.
+struct Period {
+  Eigen::Vector3d lower = Eigen::Vector3d::Zero();   // lower corner of the period [m]
+  Eigen::Vector3d length = Eigen::Vector3d::Zero();  // per axis [m]; 0: not periodic
+};
+
 struct Setup {
   int dimension = 2;
   double spacing = 0;  // dx [m]
   Eigen::Vector3d gravity{0, 0, 0};
+  Period period;
   Liquid liquid;
   Formulation formulation;
   FluidParticles fluid;

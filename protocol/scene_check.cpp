@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "protocol/field_check.hpp"
 #include "protocol/framing.hpp"
@@ -48,36 +47,6 @@ void check_liquid(const Liquid& liquid, FieldCheck& check) {
                              liquid.sound_speed(), liquid.max_speed()));
 }
 
-void check_open_sides(const Domain& domain, FieldCheck& check) {
-  std::set<int> seen;
-  for (int i = 0; i < domain.open_size(); ++i) {
-    const Side side = domain.open(i);
-    const std::string field = fmt::format("domain.open[{}]", i);
-    if (!Side_IsValid(side) || side == SIDE_UNSPECIFIED)
-      check.report(field, fmt::format("{} is not a side; give X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN or Z_MAX",
-                                      static_cast<int>(side)));
-    else if (check.dimension() == 2 && side >= Z_MIN)
-      check.report(field, fmt::format("{} does not exist in two dimensions; remove it", Side_Name(side)));
-    else if (!seen.insert(side).second)
-      check.report(field, fmt::format("{} is given twice; remove one", Side_Name(side)));
-  }
-}
-
-void check_domain(const Scene& scene, FieldCheck& check) {
-  const Domain& domain = scene.domain();
-  check.optional_vector(domain.min(), "domain.min", "the tank's lower corner");
-  check_open_sides(domain, check);
-  if (!check.vector(domain.max(), "domain.max", "the tank's upper corner")) return;
-  for (int a = 0; a < domain.max_size(); ++a) {
-    const double low = a < domain.min_size() ? domain.min(a) : 0;
-    const double edge = domain.max(a) - low;
-    if (edge <= 0 || (edge < scene.spacing() && std::isfinite(scene.spacing())))
-      check.report(fmt::format("domain.max[{}]", a),
-                   fmt::format("{} m is not a spacing above the lower corner at {} m; give a larger tank",
-                               domain.max(a), low));
-  }
-}
-
 void check_output(const Scene& scene, FieldCheck& check) {
   if (!scene.output().has_rate()) return;
   const double rate = scene.output().rate();
@@ -96,6 +65,7 @@ void check_formulation(const Formulation& formulation, FieldCheck& check) {
     check.within(formulation.artificial_viscosity(), 0, 10, "formulation.artificial_viscosity");
   if (formulation.has_moment_floor())
     check.within(formulation.moment_floor(), 0.01, 1, "formulation.moment_floor");
+  if (formulation.has_shifting()) check.within(formulation.shifting(), 0, 20, "formulation.shifting");
   if (formulation.has_courant()) check.within(formulation.courant(), 0.001, 1, "formulation.courant");
 }
 

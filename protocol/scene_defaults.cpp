@@ -91,12 +91,13 @@ void fill_body(Body& body, int dimension) {
   }
 }
 
-void fill_formulation(Formulation& formulation) {
-  if (!formulation.has_smoothing()) formulation.set_smoothing(1.5);
+void fill_formulation(Formulation& formulation, unsigned dimension, bool periodic) {
+  if (!formulation.has_smoothing()) formulation.set_smoothing(dimension == 2 ? 1.45 : 1.49);
   if (!formulation.has_density_diffusion()) formulation.set_density_diffusion(0.1);
   if (!formulation.has_artificial_viscosity()) formulation.set_artificial_viscosity(0.02);
   if (!formulation.has_moment_floor()) formulation.set_moment_floor(0.2);
   if (!formulation.has_courant()) formulation.set_courant(0.4);
+  if (!formulation.has_shifting()) formulation.set_shifting(periodic ? 6 : 0);
 }
 
 }  // namespace
@@ -117,7 +118,7 @@ Scene with_defaults(const Scene& scene) {
   fill_liquid(full);
   for (auto& body : *full.mutable_body()) fill_body(body, dimension);
   if (!full.output().has_rate()) full.mutable_output()->set_rate(kFrames / full.duration());
-  fill_formulation(*full.mutable_formulation());
+  fill_formulation(*full.mutable_formulation(), full.dimension(), full.domain().periodic_size() > 0);
   return full;
 }
 

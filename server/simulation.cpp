@@ -12,14 +12,22 @@ namespace sluice::server {
 
 namespace {
 
-// closed[2 a] and closed[2 a + 1]: lower and upper side of axis a.
-std::array<bool, 6> closed_sides(const Domain& domain) {
-  std::array<bool, 6> closed;
-  closed.fill(true);
-  for (const int side : domain.open()) {
-    if (side != SIDE_UNSPECIFIED) closed[static_cast<std::size_t>(side - X_MIN)] = false;
-  }
-  return closed;
+fluid::Tank to_tank(const Domain& domain) {
+  fluid::Tank tank{.min = to_vector(domain.min()), .max = to_vector(domain.max())};
+  for (const int side : domain.open())
+    if (side != SIDE_UNSPECIFIED) tank.closed[static_cast<std::size_t>(side - X_MIN)] = false;
+  for (const int axis : domain.periodic()) tank.periodic[static_cast<std::size_t>(axis - X_AXIS)] = true;
+  for (const WallMotion& wall : domain.moving())
+    tank.velocity[static_cast<std::size_t>(wall.side() - X_MIN)] = to_vector(wall.velocity());
+  tank.no_slip = domain.surface() == NO_SLIP;
+  return tank;
+}
+
+fluid::Period to_period(const fluid::Tank& tank) {
+  fluid::Period period{.lower = tank.min, .length = Eigen::Vector3d::Zero()};
+  for (int a = 0; a < 3; ++a)
+    if (tank.periodic[static_cast<std::size_t>(a)]) period.length[a] = tank.max[a] - tank.min[a];
+  return period;
 }
 
 fluid::Formulation to_formulation(const Formulation& formulation) {
@@ -29,6 +37,7 @@ fluid::Formulation to_formulation(const Formulation& formulation) {
   if (formulation.has_artificial_viscosity())
     result.artificial_viscosity = formulation.artificial_viscosity();
   if (formulation.has_moment_floor()) result.moment_floor = formulation.moment_floor();
+  if (formulation.has_shifting()) result.shifting = formulation.shifting();
   if (formulation.has_courant()) result.courant = formulation.courant();
   return result;
 }
@@ -57,10 +66,12 @@ fluid::Setup to_setup(const Scene& scene, int threads) {
   setup.threads = threads;
 
   const double support = 2 * setup.formulation.smoothing * setup.spacing;  // of the kernel, 2 h
-  setup.walls = fluid::sample_walls(to_vector(scene.domain().min()), to_vector(scene.domain().max()),
-                                    closed_sides(scene.domain()), setup.spacing, support, setup.dimension);
+  const fluid::Tank tank = to_tank(scene.domain());
+  setup.period = to_period(tank);
+  setup.walls = fluid::sample_walls(tank, setup.spacing, support, setup.dimension);
   for (const Body& body : scene.body()) {
     setup.bodies.push_back(fluid::sample_body(to_shape(body), setup.spacing, support, setup.dimension));
+    setup.bodies.back().no_slip = body.surface() == NO_SLIP;
   }
   return setup;
 }

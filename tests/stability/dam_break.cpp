@@ -64,7 +64,7 @@ Setup DamBreak::setup() const {
       dimension == 2 ? Vector3d(length(), height(), 0) : Vector3d(length(), width, height());
   const std::array<bool, 6> closed{true, true, true, dimension == 3, true, false};
   const double support = 2.0 * s.formulation.smoothing * s.spacing;
-  s.walls = sample_walls(Vector3d::Zero(), tank, closed, s.spacing, support, dimension);
+  s.walls = sample_walls({Vector3d(0, 0, 0), tank, closed}, s.spacing, support, dimension);
   return s;
 }
 

@@ -77,10 +77,10 @@ TEST(Conservation, ViscousSplashInThePlane) {
   expect_closed_balance(2, 20.0, 400);
 }
 TEST(Conservation, SplashInSpace) {
-  expect_closed_balance(3, 0.0, 150);
+  expect_closed_balance(3, 0.0, 300);
 }
 TEST(Conservation, ViscousSplashInSpace) {
-  expect_closed_balance(3, 20.0, 150);
+  expect_closed_balance(3, 20.0, 400);
 }
 
 // A free patch of water that turns about its centre and drifts, off the origin.

@@ -66,7 +66,7 @@ TEST(Fill, PointsOnTheSurfaceAreOutside) {
 TEST(Walls, EncloseTheBoxAndKeepOutOfIt) {
   const Vector3d min(-1, 2, 0), max(0, 2.5, 0.3);
   for (const int dimension : {2, 3}) {
-    const Boundary walls = sample_walls(min, max, kClosed, 0.1, 0.3, dimension);
+    const Boundary walls = sample_walls({min, max, kClosed}, 0.1, 0.3, dimension);
     const double volume = dimension == 2 ? 1.6 * 1.1 - 1.0 * 0.5 : 1.6 * 1.1 * 0.9 - 1.0 * 0.5 * 0.3;
     EXPECT_NEAR(total(walls.volume), volume, 1e-12);
     for (const Vector3d& x : walls.position) {
@@ -82,17 +82,17 @@ TEST(Walls, EncloseTheBoxAndKeepOutOfIt) {
 }
 
 TEST(Walls, LeaveOpenSidesOpen) {
-  const Boundary walls = sample_walls({0, 0, 0}, {1, 1, 0}, kNoLid2, 0.1, 0.3, 2);
+  const Boundary walls = sample_walls({{0, 0, 0}, {1, 1, 0}, kNoLid2}, 0.1, 0.3, 2);
   EXPECT_NEAR(total(walls.volume), 1.6 * 0.3 + 2 * 0.3 * 1.0, 1e-12);
   for (const Vector3d& x : walls.position) EXPECT_LT(x.y(), 1.0);
-  const Boundary floor = sample_walls({0, 0, 0}, {1, 1, 1}, {0, 0, 0, 0, 1, 0}, 0.1, 0.3, 3);
+  const Boundary floor = sample_walls({{0, 0, 0}, {1, 1, 1}, {0, 0, 0, 0, 1, 0}}, 0.1, 0.3, 3);
   EXPECT_NEAR(total(floor.volume), 0.3, 1e-12);
   for (const Vector3d& x : floor.position) EXPECT_LT(x.z(), 0.0);
-  EXPECT_TRUE(sample_walls({0, 0, 0}, {1, 1, 1}, {}, 0.1, 0.3, 3).position.empty());
+  EXPECT_TRUE(sample_walls({{0, 0, 0}, {1, 1, 1}, {}}, 0.1, 0.3, 3).position.empty());
 }
 
 TEST(Walls, NoTwoParticlesShareAPlace) {
-  const Boundary walls = sample_walls({0, 0, 0}, {0.7, 0.4, 0.5}, kClosed, 0.1, 0.3, 3);
+  const Boundary walls = sample_walls({{0, 0, 0}, {0.7, 0.4, 0.5}, kClosed}, 0.1, 0.3, 3);
   std::set<std::array<long, 3>> places;
   for (const Vector3d& x : walls.position)
     places.insert({std::lround(x.x() / 0.05), std::lround(x.y() / 0.05), std::lround(x.z() / 0.05)});
@@ -100,7 +100,7 @@ TEST(Walls, NoTwoParticlesShareAPlace) {
 }
 
 TEST(Walls, DeepEnoughForASupportThatIsNoMultipleOfTheSpacing) {
-  const Boundary walls = sample_walls({0, 0, 0}, {1, 1, 0}, kClosed, 0.1, 0.25, 2);
+  const Boundary walls = sample_walls({{0, 0, 0}, {1, 1, 0}, kClosed}, 0.1, 0.25, 2);
   double lowest = 0;
   for (const Vector3d& x : walls.position) lowest = std::min(lowest, x.y());
   EXPECT_NEAR(lowest, -0.25, 1e-12);  // three layers
@@ -108,7 +108,7 @@ TEST(Walls, DeepEnoughForASupportThatIsNoMultipleOfTheSpacing) {
 
 // 1.03 holds ten cells of 0.103: the wall particles along it are as wide as their cells.
 TEST(Walls, VolumesFillTheLayersOfAnyBox) {
-  const Boundary walls = sample_walls({0, 0, 0}, {1.03, 0.96, 0}, kClosed, 0.1, 0.3, 2);
+  const Boundary walls = sample_walls({{0, 0, 0}, {1.03, 0.96, 0}, kClosed}, 0.1, 0.3, 2);
   EXPECT_NEAR(total(walls.volume), 1.63 * 1.56 - 1.03 * 0.96, 1e-12);
 }
 

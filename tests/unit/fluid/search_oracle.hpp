@@ -29,6 +29,7 @@ Boundary boundary_at(const std::vector<Vec<Dim>>& positions) {
   for (const Vec<Dim>& x : positions) {
     boundary.position.push_back(widen<Dim>(x));
     boundary.volume.push_back(1.0);
+    boundary.to_surface.emplace_back(0.0, 0.1, 0.0);
   }
   return boundary;
 }

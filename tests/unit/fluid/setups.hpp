@@ -13,6 +13,7 @@ struct Scene {
   Scene(int dimension, double spacing, double gravity, double sound_speed) {
     setup.dimension = dimension;
     setup.spacing = spacing;
+    setup.formulation.smoothing = stable_smoothing(dimension);
     setup.gravity[dimension - 1] = -gravity;
     setup.liquid = {1000, 0, sound_speed};
     setup.fluid.volume = particle_volume(spacing, dimension);
@@ -39,7 +40,7 @@ struct Scene {
   void add_tank(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
     std::array<bool, 6> closed{true, true, true, true, true, true};
     closed[2 * static_cast<std::size_t>(setup.dimension) - 1] = false;
-    setup.walls = sample_walls(min, max, closed, setup.spacing, support(), setup.dimension);
+    setup.walls = sample_walls({min, max, closed}, setup.spacing, support(), setup.dimension);
   }
 
   void add_body(const Shape& shape) {

@@ -174,8 +174,8 @@ TEST_F(PreflightTest, thin_bodies) {
   const auto plate = [](const std::string& width) {
     return "body { name: \"plate\" box { size: [" + width + ", 0.3] } density: 500 position: [0.7, 0.5] }";
   };
-  EXPECT_THAT(check(plate("0.061")).warnings, IsEmpty());
-  EXPECT_THAT(check(plate("0.059")).warnings, ElementsAre(problem("body[0]", "thin-plate rule")));
+  EXPECT_THAT(check(plate("0.0581")).warnings, IsEmpty());
+  EXPECT_THAT(check(plate("0.0579")).warnings, ElementsAre(problem("body[0]", "thin-plate rule")));
   EXPECT_THAT(check(plate("0.01")).errors, IsEmpty());
   EXPECT_THAT(check(plate("0.009")).errors,
               ElementsAre(problem("body[0]", "thinner than one particle spacing")));
@@ -201,8 +201,8 @@ TEST_F(PreflightTest, estimates) {
   EXPECT_EQ(cost.fluid_particles, 2000u);
   EXPECT_EQ(cost.boundary_particles,
             3u * (2 * 100 + 100) + 2 * 9);  // three layers on three sides, two corners
-  // dt = 0.4 * 0.015 / (11 sqrt(2 g 0.5)), rounded down to a whole number of steps in 0.01 s
-  EXPECT_EQ(cost.steps, 5800u);
+  // dt = 0.4 * 0.0145 / (11 sqrt(2 g 0.5)), rounded down to a whole number of steps in 0.01 s
+  EXPECT_EQ(cost.steps, 6000u);
   EXPECT_GT(cost.memory_bytes, 2000u * 100);
   EXPECT_GT(cost.run_seconds, 0);
 

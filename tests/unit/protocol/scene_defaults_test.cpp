@@ -22,7 +22,7 @@ TEST(Defaults, AreThoseOfTheSceneDescription) {
   EXPECT_EQ(scene.liquid().density(), 1000);
   EXPECT_DOUBLE_EQ(scene.output().rate(), 100 / 1.5);
   EXPECT_TRUE(scene.fluid(0).hydrostatic());
-  EXPECT_EQ(scene.formulation().smoothing(), 1.5);
+  EXPECT_EQ(scene.formulation().smoothing(), 1.45);
   EXPECT_EQ(scene.formulation().density_diffusion(), 0.1);
   EXPECT_EQ(scene.formulation().artificial_viscosity(), 0.02);
   EXPECT_EQ(scene.formulation().moment_floor(), 0.2);

@@ -17,7 +17,7 @@ TEST(FallingCylinder, EntersTheWaterAndFloats) {
   while (run.next_output()) {
     const double y = run.body(0).position.y();
     deepest = std::min(deepest, y);
-    EXPECT_LT(y, 0.46);
+    EXPECT_LT(y, 0.47);
     EXPECT_NEAR(run.body(0).position.x(), 0.605, 3 * radius);
     if (run.time() > 1.2) {
       sum += y;
