@@ -33,11 +33,19 @@ Measurement measure(const Case& what, const Formulation& formulation, int resolu
   return row;
 }
 
+std::vector<int> resolutions(const Case& what, const AccuracyOptions& options) {
+  if (options.quick) return what.quick;
+  if (options.resolutions.empty()) return what.resolutions;
+  std::vector<int> ascending = options.resolutions;
+  std::sort(ascending.begin(), ascending.end());
+  return ascending;
+}
+
 CaseTable measure_all(const Case& what, const std::vector<Formulation>& formulations,
                       const AccuracyOptions& options) {
   CaseTable table{what, {}};
   for (const Formulation& formulation : formulations)
-    for (const int resolution : options.quick ? what.quick : what.resolutions)
+    for (const int resolution : resolutions(what, options))
       table.rows.push_back(measure(what, formulation, resolution, options.threads));
   rank(table.rows);
   return table;

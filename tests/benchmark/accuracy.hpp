@@ -8,6 +8,7 @@ namespace sluice::benchmark {
 struct AccuracyOptions {
   std::vector<std::string> cases, formulations;  // empty: all cases; the defaults
   bool quick = false;
+  std::vector<int> resolutions;  // empty: those of the case
   int threads = 1;
   std::string csv, plot;  // files; empty: none
 };

@@ -27,6 +27,10 @@ CLI::App* add_accuracy(CLI::App& app, AccuracyOptions& options) {
                    "Of: " + names(all_formulations()) + "; 'default' alone when left out")
       ->type_name("NAME ...");
   command->add_flag("--quick", options.quick, "Coarse resolutions only; nothing is stated of those");
+  command->add_option("--resolution", options.resolutions, "These instead of the cases' own")
+      ->check(CLI::PositiveNumber)
+      ->excludes("--quick")
+      ->type_name("N ...");
   command->add_option("--csv", options.csv, "Write the table to this file")->type_name("FILE");
   command->add_option("--plot", options.plot, "Draw error over run time")->type_name("FILE.png");
   command->add_option("--threads", options.threads, "Threads of the solver")

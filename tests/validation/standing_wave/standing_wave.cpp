@@ -81,7 +81,10 @@ Outcome run_viscous(int resolution, const std::vector<std::string>& overrides, i
   const double left = std::exp(-found.decay * kPeriods * 2 * M_PI / found.frequency);
   const double theory = 2 * nu * kWaveNumber * kWaveNumber;
   const double error = std::abs(found.decay / theory - 1);
-  return run.outcome({{"decay rate", "% from theory", 100 * error, 5}, period_error(found, left)}, error);
+  return run.outcome({{"decay rate", "% from theory", 100 * error, 5},
+                      period_error(found, left),
+                      {"amplitude left after 5 periods", "%", 100 * left}},
+                     error);
 }
 
 }  // namespace
