@@ -1,4 +1,5 @@
 #include "validation/dam_break/dam_break.hpp"
+#include "validation/drop_impact/drop_impact.hpp"
 #include "validation/elliptical_drop/elliptical_drop.hpp"
 #include "validation/hydrostatic_column/hydrostatic_column.hpp"
 #include "validation/jet_on_wall/jet_on_wall.hpp"
@@ -10,7 +11,7 @@ namespace sluice::validation {
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases{hydrostatic_column(), standing_wave(),   viscous_standing_wave(),
                                        rotating_patch(),     elliptical_drop(), jet_on_wall(),
-                                       dam_break()};
+                                       dam_break(),          drop_impact()};
   return cases;
 }
 
