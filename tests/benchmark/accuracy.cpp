@@ -47,7 +47,7 @@ CaseTable measure_all(const Case& what, const std::vector<Formulation>& formulat
   for (const Formulation& formulation : formulations)
     for (const int resolution : resolutions(what, options))
       table.rows.push_back(measure(what, formulation, resolution, options.threads));
-  rank(table.rows);
+  rank(table);
   return table;
 }
 

@@ -31,7 +31,8 @@ struct CaseTable {
   [[nodiscard]] bool any_missed(const std::string& formulation) const;
 };
 
-// Fills in `order` and `on_front`. Precondition: the resolutions of a formulation ascend.
-void rank(std::vector<Measurement>& rows);
+// Fills in `order` and `on_front`; where an order is stated it becomes a figure. Precondition: the
+// resolutions of a formulation ascend.
+void rank(CaseTable& table);
 
 }  // namespace sluice::benchmark

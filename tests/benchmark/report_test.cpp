@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <fstream>
+
 #include "benchmark/formulations.hpp"
 #include "benchmark/selection.hpp"
 
@@ -19,10 +22,18 @@ Measurement row(const std::string& formulation, int resolution, double error, do
   return result;
 }
 
-CaseTable table(std::vector<Measurement> rows) {
-  rank(rows);
-  validation::Case what{"drop", "A drop", "theory", {10, 20}, {10}, 20, {}};
-  return {what, rows};
+CaseTable table(std::vector<Measurement> rows, double least_order = NAN) {
+  validation::Case what{.name = "drop",
+                        .title = "A drop",
+                        .reference = "theory",
+                        .resolutions = {10, 20},
+                        .quick = {10},
+                        .bound_resolution = 20,
+                        .least_order = least_order,
+                        .run = {}};
+  CaseTable result{what, std::move(rows)};
+  rank(result);
+  return result;
 }
 
 TEST(Rank, MarksWhatNothingIsBetterThan) {
@@ -50,6 +61,13 @@ TEST(Bounds, HoldFromTheirResolutionOn) {
   EXPECT_THAT(to_text(t), Not(HasSubstr("4 %;")));
 }
 
+TEST(Bounds, HoldOfTheOrderWhereOneIsStated) {
+  const std::vector<Measurement> rows{row("a", 10, 0.04, 1), row("a", 20, 0.01, 8)};
+  EXPECT_FALSE(table(rows, 1.8).any_missed("a"));
+  EXPECT_TRUE(table(rows, 2.2).any_missed("a"));
+  EXPECT_THAT(to_text(table(rows, 2.2)), HasSubstr("at least 2.2: MISSED"));
+}
+
 TEST(Bounds, AreMissedByARunThatFails) {
   Measurement failed = row("a", 20, 0, 0);
   failed.failure = "it blew \"up\"";
@@ -63,6 +81,13 @@ TEST(Csv, HasALineAFigure) {
   const std::string text = to_csv({table({row("a", 20, 0.03, 8)})});
   EXPECT_THAT(text, HasSubstr("drop,a,20,100,50,0.03,,8,625,1,\"height\",\"%\",3,2,1,\n"));
   EXPECT_THAT(text, HasSubstr("drop,a,20,100,50,0.03,,8,625,1,\"left\",\"%\",90,80,0,\n"));
+}
+
+TEST(Readme, SaysWhatTheErrorOfEveryCaseIs) {
+  std::ifstream file(SLUICE_SOURCE "/tests/benchmark/README.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  for (const validation::Case& what : validation::all_cases())
+    EXPECT_THAT(text, HasSubstr("\n| `" + what.name + "` |"));
 }
 
 TEST(Selection, NamesWhatThereIs) {

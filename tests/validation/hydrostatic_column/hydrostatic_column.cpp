@@ -53,6 +53,7 @@ Case hydrostatic_column() {
           .resolutions = {12, 25, 50},
           .quick = {10},
           .bound_resolution = 50,
+          .least_order = 1.8,
           .run = run};
 }
 

@@ -96,6 +96,7 @@ Case standing_wave() {
           .resolutions = {12, 25, 50},
           .quick = {10},
           .bound_resolution = 50,
+          .least_order = 1.8,
           .run = run_inviscid};
 }
 
@@ -106,6 +107,7 @@ Case viscous_standing_wave() {
           .resolutions = {12, 25, 50},
           .quick = {10},
           .bound_resolution = 50,
+          .least_order = 1.8,
           .run = run_viscous};
 }
 

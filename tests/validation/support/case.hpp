@@ -35,6 +35,8 @@ struct Case {
   std::string name, title, reference;
   std::vector<int> resolutions, quick;  // ascending; quick: seconds
   int bound_resolution;
+  // Stated of the observed order at bound_resolution, in cases whose error vanishes with the spacing.
+  double least_order = std::numeric_limits<double>::quiet_NaN();
   // `overrides` are those of `sluice run --set`.
   std::function<Outcome(int resolution, const std::vector<std::string>& overrides, int threads)> run;
 };

@@ -57,6 +57,7 @@ Case taylor_green() {
           .resolutions = {25, 50, 100},
           .quick = {20},
           .bound_resolution = 100,
+          .least_order = 1.8,
           .run = run};
 }
 
