@@ -5,14 +5,14 @@
 namespace sluice::validation {
 namespace {
 
-// The amplitude lost falls at about first order at these resolutions (measured 62, 36 and 26 % lost).
+// The amplitude lost falls at about first order at these resolutions (measured 46, 36 and 19 % lost).
 TEST(StandingWave, ConvergesToTheory) {
   const Case wave = standing_wave();
   const Outcome coarse = wave.run(8, {}, 1), middle = wave.run(12, {}, 1), fine = wave.run(16, {}, 1);
   EXPECT_LT(middle.error, coarse.error);
   EXPECT_LT(fine.error, middle.error);
   EXPECT_GE(observed_order(8, coarse.error, 16, fine.error), 1.0);
-  EXPECT_LE(fine.figure("period"), 0.8);
+  EXPECT_LE(fine.figure("period"), 0.8);  // measured 0.13 % at H/16, 0.6 % at H/12
 }
 
 // Not before H/50 is the scheme's own dissipation small beside the viscosity, but it is felt.
