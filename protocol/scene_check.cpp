@@ -74,8 +74,13 @@ void check_regions(const Scene& scene, FieldCheck& check) {
     check.report("fluid",
                  "is missing; give at least one region, e.g. fluid { box { min: [0, 0] max: [1, 0.5] } }");
   if (!check.count(scene.fluid_size(), kMostRegions, "fluid")) return;
-  for (int i = 0; i < scene.fluid_size(); ++i)
-    check_fluid(scene.fluid(i), fmt::format("fluid[{}]", i), check);
+  for (int i = 0; i < scene.fluid_size(); ++i) {
+    const std::string field = fmt::format("fluid[{}]", i);
+    check_fluid(scene.fluid(i), field, check);
+    if (scene.fluid(i).has_velocity_field() && !scene.liquid().has_max_speed())
+      check.report(field + ".velocity_field",
+                   "needs liquid.max_speed: give the largest speed expected in the flow [m/s]");
+  }
 }
 
 // Of scenes that are right in every field.

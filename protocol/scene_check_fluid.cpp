@@ -3,11 +3,13 @@
 #include <cmath>
 
 #include "protocol/field_check.hpp"
+#include "protocol/formula.hpp"
 
 namespace sluice::protocol {
 namespace {
 
 constexpr int kMostVertices = 1000;
+constexpr std::size_t kLongestFormula = 20'000;  // a double series of some hundred terms
 
 double cross(const Point& origin, const Point& a, const Point& b) {
   return (a.x() - origin.x()) * (b.y() - origin.y()) - (a.y() - origin.y()) * (b.x() - origin.x());
@@ -76,6 +78,40 @@ bool check_corners(const Polygon& polygon, bool convex, const std::string& field
   return check.problems().size() == before_all;
 }
 
+void check_formula(const std::string& formula, const std::string& field, FieldCheck& check) {
+  if (formula.size() > kLongestFormula)
+    return check.report(field, fmt::format("has {} characters, at most {} are supported; use fewer terms",
+                                           formula.size(), kLongestFormula));
+  try {
+    const Formula parsed(formula);
+  } catch (const FormulaError& error) {
+    check.report(field, error.what());
+  }
+}
+
+void check_field(const Field& given, const std::string& field, FieldCheck& check) {
+  if (given.x().empty() && given.y().empty() && given.z().empty())
+    check.report(field, "has no formula; give x, y or z, e.g. x: \"0.1*sin(pi*x)\"");
+  if (check.dimension() == 2 && !given.z().empty())
+    check.report(field + ".z", "does not exist in two dimensions; remove it");
+  check_formula(given.x(), field + ".x", check);
+  check_formula(given.y(), field + ".y", check);
+  check_formula(given.z(), field + ".z", check);
+}
+
+void check_start(const FluidRegion& region, const std::string& field, FieldCheck& check) {
+  check.optional_vector(region.velocity(), field + ".velocity", "the initial velocity");
+  if (region.has_velocity_field()) {
+    check_field(region.velocity_field(), field + ".velocity_field", check);
+    if (!region.velocity().empty())
+      check.report(field + ".velocity_field", "stands beside velocity; give one of them");
+  }
+  if (region.has_displacement()) check_field(region.displacement(), field + ".displacement", check);
+  check_formula(region.pressure(), field + ".pressure", check);
+  if (!region.pressure().empty() && region.hydrostatic())
+    check.report(field + ".pressure", "stands beside hydrostatic: true; give one of them");
+}
+
 }  // namespace
 
 void check_polygon(const Polygon& polygon, bool convex, const std::string& field, FieldCheck& check) {
@@ -93,7 +129,7 @@ void check_polygon(const Polygon& polygon, bool convex, const std::string& field
 }
 
 void check_fluid(const FluidRegion& region, const std::string& field, FieldCheck& check) {
-  check.optional_vector(region.velocity(), field + ".velocity", "the initial velocity");
+  check_start(region, field, check);
   switch (region.shape_case()) {
     case FluidRegion::kBox: {
       const bool low = check.vector(region.box().min(), field + ".box.min", "the box's lower corner");

@@ -112,8 +112,8 @@ Scene with_defaults(const Scene& scene) {
   }
   fill_zeros(*full.mutable_domain()->mutable_min(), dimension);
   for (auto& region : *full.mutable_fluid()) {
-    fill_zeros(*region.mutable_velocity(), dimension);
-    if (!region.has_hydrostatic()) region.set_hydrostatic(true);
+    if (!region.has_velocity_field()) fill_zeros(*region.mutable_velocity(), dimension);
+    if (!region.has_hydrostatic()) region.set_hydrostatic(region.pressure().empty());
   }
   fill_liquid(full);
   for (auto& body : *full.mutable_body()) fill_body(body, dimension);

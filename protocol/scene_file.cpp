@@ -67,6 +67,9 @@ std::string to_string(const Problem& problem) {
 SceneError::SceneError(std::vector<Problem> problems)
     : InputError(join_lines(problems)), problems_(std::move(problems)) {}
 
+SceneError::SceneError(std::string field, std::string text)
+    : SceneError(std::vector<Problem>{{{}, std::move(field), std::move(text)}}) {}
+
 SceneFile SceneFile::load(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   const std::string text = read_text(path);
   const bool json = path.extension() == ".json";

@@ -32,6 +32,8 @@ std::string to_string(const Problem& problem);
 class SceneError : public InputError {
  public:
   explicit SceneError(std::vector<Problem> problems);
+  // Of one problem whose place is not known.
+  SceneError(std::string field, std::string text);
   [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
 
  private:

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 
-#include "fluid/equation_of_state.hpp"
 #include "fluid/sampling.hpp"
 #include "server/geometry.hpp"
+#include "server/initial_fields.hpp"
 
 namespace sluice::server {
+
+using protocol::SceneError;
 
 namespace {
 
@@ -19,13 +21,6 @@ constexpr double kCut = 0.5;
 // ... and an error at one that does not. Less than kCut, so that liquid up to a body's face is no error.
 constexpr double kTooNear = 0.25;
 
-[[noreturn]] void fail(const std::string& field, const std::string& text) {
-  protocol::Problem problem;
-  problem.field = field;
-  problem.text = text;
-  throw protocol::SceneError(std::vector<protocol::Problem>{problem});
-}
-
 std::string region_name(int index) {
   return fmt::format("fluid[{}]", index);
 }
@@ -35,6 +30,10 @@ std::string place(const Eigen::Vector3d& x, int dimension) {
                         : fmt::format("({:g}, {:g}, {:g}) m", x.x(), x.y(), x.z());
 }
 
+struct Particle {
+  Eigen::Vector3d position, origin;  // origin: its lattice point, from which the displacement moves it
+};
+
 class Filling {
  public:
   explicit Filling(const Scene& scene) : scene_(scene), dimension_(static_cast<int>(scene.dimension())) {
@@ -43,7 +42,8 @@ class Filling {
 
   fluid::FluidParticles run() {
     for (int r = 0; r < scene_.fluid_size(); ++r) add_region(r);
-    if (liquid_.position.empty()) fail("fluid", "no liquid is left; give at least one region a larger shape");
+    if (liquid_.position.empty())
+      throw SceneError("fluid", "no liquid is left; give at least one region a larger shape");
     liquid_.volume = fluid::particle_volume(scene_.spacing(), dimension_);
     return std::move(liquid_);
   }
@@ -54,15 +54,17 @@ class Filling {
     const Region& region = regions_[r];
     std::vector<Eigen::Vector3d> lattice =
         fluid::fill(region.shape, region.center, scene_.spacing(), dimension_);
-    check_inside_tank(r, lattice);
     check_overlap(r, lattice);
-    cut_bodies(lattice);
+    const InitialFields fields(scene_, r);
+    std::vector<Particle> particles;
+    for (const Eigen::Vector3d& x : lattice) particles.push_back({x + fields.displacement(x), x});
+    check_inside_tank(r, particles);
+    cut_bodies(particles);
 
-    const Eigen::Vector3d velocity = to_vector(scene_.fluid(r).velocity());
-    for (const Eigen::Vector3d& x : lattice) {
-      liquid_.position.push_back(x);
-      liquid_.velocity.push_back(velocity);
-      liquid_.pressure.push_back(pressure(r, x));
+    for (const auto& [position, origin] : particles) {
+      liquid_.position.push_back(position);
+      liquid_.velocity.push_back(fields.velocity(origin));
+      liquid_.pressure.push_back(fields.pressure(origin));
     }
   }
 
@@ -71,20 +73,21 @@ class Filling {
     double count = 1;
     for (int a = 0; a < dimension_; ++a) count *= (max[a] - min[a]) / scene_.spacing();
     if (count + static_cast<double>(liquid_.position.size()) > kMostParticles) {
-      fail("spacing",
-           fmt::format("{:g} m gives about {:.2g} particles in {}; at most {:g}: take a larger spacing",
-                       scene_.spacing(), count, region_name(r), kMostParticles));
+      throw SceneError(
+          "spacing",
+          fmt::format("{:g} m gives about {:.2g} particles in {}; at most {:g}: take a larger spacing",
+                      scene_.spacing(), count, region_name(r), kMostParticles));
     }
   }
 
-  void check_inside_tank(int r, const std::vector<Eigen::Vector3d>& lattice) const {
+  void check_inside_tank(int r, const std::vector<Particle>& particles) const {
     const Eigen::Vector3d min = to_vector(scene_.domain().min()), max = to_vector(scene_.domain().max());
-    for (const Eigen::Vector3d& x : lattice) {
+    for (const auto& [x, origin] : particles) {
       for (int a = 0; a < dimension_; ++a) {
         if (x[a] > min[a] && x[a] < max[a]) continue;
-        fail(region_name(r),
-             fmt::format("liquid at {} stands outside the tank, which reaches from {} to {}",
-                         place(x, dimension_), place(min, dimension_), place(max, dimension_)));
+        throw SceneError(region_name(r),
+                         fmt::format("liquid at {} stands outside the tank, which reaches from {} to {}",
+                                     place(x, dimension_), place(min, dimension_), place(max, dimension_)));
       }
     }
   }
@@ -94,7 +97,8 @@ class Filling {
     for (int other = 0; other < r; ++other) {
       const bool inside = holds_any(other, lattice) || holds_any(r, lattices_[other]);
       if (inside)
-        fail(region_name(r), fmt::format("overlaps {}; shrink or move one of them", region_name(other)));
+        throw SceneError(region_name(r),
+                         fmt::format("overlaps {}; shrink or move one of them", region_name(other)));
     }
     lattices_.push_back(lattice);
   }
@@ -107,7 +111,7 @@ class Filling {
     });
   }
 
-  void cut_bodies(std::vector<Eigen::Vector3d>& lattice) const {
+  void cut_bodies(std::vector<Particle>& particles) const {
     for (int b = 0; b < scene_.body_size(); ++b) {
       const Body& body = scene_.body(b);
       const fluid::Shape shape = to_shape(body);
@@ -115,28 +119,17 @@ class Filling {
       const double clearance = (body.displaces_fluid() ? kCut : kTooNear) * scene_.spacing();
       // The tolerance keeps a lattice that touches the body from losing a layer to round-off.
       const double nearest = clearance - 1e-6 * scene_.spacing();
-      const auto cut = std::remove_if(lattice.begin(), lattice.end(), [&](const Eigen::Vector3d& x) {
-        return distance(shape, pose, x, dimension_) < nearest;
+      const auto cut = std::remove_if(particles.begin(), particles.end(), [&](const Particle& p) {
+        return distance(shape, pose, p.position, dimension_) < nearest;
       });
-      if (cut != lattice.end() && !body.displaces_fluid()) {
-        fail(fmt::format("body[{}]", b),
-             fmt::format("\"{}\" stands in liquid ({} particles); move it or set displaces_fluid: true",
-                         body.name(), lattice.end() - cut));
+      if (cut != particles.end() && !body.displaces_fluid()) {
+        throw SceneError(
+            fmt::format("body[{}]", b),
+            fmt::format("\"{}\" stands in liquid ({} particles); move it or set displaces_fluid: true",
+                        body.name(), particles.end() - cut));
       }
-      lattice.erase(cut, lattice.end());
+      particles.erase(cut, particles.end());
     }
-  }
-
-  // Hydrostatic, with the density that the pressure makes: z the height of x against gravity, H that of the
-  // region's highest point. CF (65) has the pressure of an incompressible column, with which the start is not
-  // quite at rest.
-  double pressure(int r, const Eigen::Vector3d& x) const {
-    const Eigen::Vector3d g = to_vector(scene_.gravity());
-    if ((scene_.fluid(r).has_hydrostatic() && !scene_.fluid(r).hydrostatic()) || g.isZero(0)) return 0;
-    const Region& region = regions_[r];
-    const double g_height = support(region.shape, -g) - g.dot(region.center);  // g H
-    const fluid::EquationOfState eos(scene_.liquid().density(), scene_.liquid().sound_speed());
-    return eos.pressure(eos.hydrostatic_density(g_height + g.dot(x)));
   }
 
   const Scene& scene_;

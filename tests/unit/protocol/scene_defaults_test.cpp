@@ -35,6 +35,13 @@ TEST(Defaults, PassTheChecks) {
   EXPECT_TRUE(check_fields(filled({"body[0].prescribed={constant {velocity: [0, 1]}}"})).empty());
 }
 
+TEST(Defaults, OfInitialFieldsPassTheChecks) {
+  const Scene scene = filled({"fluid[0].pressure=1", "fluid[0].velocity_field.x=y", "liquid.max_speed=1"});
+  EXPECT_TRUE(check_fields(scene).empty());
+  EXPECT_FALSE(scene.fluid(0).hydrostatic());
+  EXPECT_TRUE(scene.fluid(0).velocity().empty());
+}
+
 TEST(Defaults, LeaveWhatIsGiven) {
   const Scene scene = filled({"gravity=[0, 0]", "liquid.max_speed=2", "liquid.density=0.5", "output.rate=7",
                               "fluid[0].hydrostatic=false", "formulation.smoothing=2"});

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "validation/support/files.hpp"
 #include "validation/support/scene_run.hpp"
 
 namespace sluice::validation {
@@ -10,7 +11,7 @@ namespace {
 // The half-buoyant cylinder falls in, comes up again and ends near the level of Archimedes: its centre in the
 // surface that its own volume has raised. At half the scene's resolution.
 TEST(FallingCylinder, EntersTheWaterAndFloats) {
-  SceneRun run("falling_cylinder", {"spacing=0.011", "duration=2"});
+  SceneRun run(shipped_scene("falling_cylinder"), {"spacing=0.011", "duration=2"});
   const double radius = 0.055, level = 0.396 + 0.5 * M_PI * radius * radius / 1.21;
   double deepest = 1, sum = 0;
   int count = 0;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "validation/support/files.hpp"
 #include "validation/support/scene_run.hpp"
 
 namespace sluice::validation {
@@ -43,7 +44,8 @@ double share_near_slit(const fluid::Snapshot& s, double reach) {
 // A gate that stays shut one side wet, the other dry: hydrostatic force, nothing through it. Then it opens:
 // the water moves under it first. The gate is two spacings thick here, a third of two supports.
 TEST(RisingGate, HoldsTheWaterUntilItOpens) {
-  SceneRun run("rising_gate", {"spacing=0.002", "duration=0.14", "body[0].prescribed.constant.start=0.1"});
+  SceneRun run(shipped_scene("rising_gate"),
+               {"spacing=0.002", "duration=0.14", "body[0].prescribed.constant.start=0.1"});
   const double hydrostatic = 0.5 * 1000 * 9.81 * 0.1 * 0.1;  // [N/m]
   while (run.time() < 0.1 - 1e-6 && run.next_output()) {
     const fluid::Snapshot s = run.solver().snapshot();
@@ -62,7 +64,7 @@ TEST(RisingGate, HoldsTheWaterUntilItOpens) {
 // The scene itself at half its resolution: nothing through the gate, and the front ahead of the gate, behind
 // Ritter's.
 TEST(RisingGate, LetsTheWaterOutUnderIt) {
-  SceneRun run("rising_gate", {"spacing=0.002"});
+  SceneRun run(shipped_scene("rising_gate"), {"spacing=0.002"});
   double previous = 0;
   while (run.next_output()) {
     const fluid::Snapshot s = run.solver().snapshot();

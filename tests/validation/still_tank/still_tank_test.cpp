@@ -3,6 +3,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "validation/support/files.hpp"
+#include "validation/support/results.hpp"
 #include "validation/support/scene_run.hpp"
 
 namespace sluice::validation {
@@ -36,7 +38,7 @@ std::pair<double, double> surface_drift(const fluid::Snapshot& start, const flui
 
 // Hydrostatic column, p = rho0 g (H - y), no motion: 25 particles of depth to t sqrt(g/H) = 20.
 TEST(StillTank, StaysAtRestWithHydrostaticPressure) {
-  SceneRun run("still_tank");
+  SceneRun run(shipped_scene("still_tank"));
   ASSERT_GE(run.end_time() * std::sqrt(kG / kDepth), 20.0 - 1e-3);
   const fluid::Snapshot start = run.solver().snapshot();
   const double potential = run.solver().diagnostics().potential;

@@ -1,16 +1,35 @@
 #include "validation/support/scene_run.hpp"
 
+#include <chrono>
+
 #include "clients/rigid/convert.hpp"
 #include "protocol/scene_check.hpp"
 #include "protocol/scene_file.hpp"
+#include "server/guard.hpp"
 
 namespace sluice::validation {
 
 namespace {
 
-Scene load(const std::string& scene, const std::vector<std::string>& overrides) {
-  const std::string path = std::string(SLUICE_SOURCE) + "/clients/scenes/" + scene + ".scene";
-  return protocol::with_defaults(protocol::SceneFile::load(path, overrides).scene());
+constexpr std::uint64_t kGuardInterval = 8;  // [steps], as in the server
+
+Scene load(const std::filesystem::path& scene, const std::vector<std::string>& overrides) {
+  return protocol::with_defaults(protocol::SceneFile::load(scene, overrides).scene());
+}
+
+server::Simulation simulate(const Scene& scene, int threads, Walls walls) {
+  return server::make_simulation(scene, threads, [walls](fluid::Setup setup) {
+    setup.measure_wall_force = walls == Walls::kForceMeasured;
+    return fluid::make_solver(setup);
+  });
+}
+
+// Particles start with one volume and the density that their pressure makes.
+std::vector<double> initial_masses(const server::Simulation& simulation) {
+  std::vector<double> masses = simulation.solver->snapshot().density;
+  const double volume = simulation.particle_mass / simulation.scene.liquid().density();
+  for (double& mass : masses) mass *= volume;
+  return masses;
 }
 
 fluid::Kinematics to_fluid(const rigid::Kinematics& k) {
@@ -25,8 +44,9 @@ std::vector<rigid::Wrench> to_rigid(std::span<const fluid::Wrench> wrenches) {
 
 }  // namespace
 
-SceneRun::SceneRun(const std::string& scene, const std::vector<std::string>& overrides, int threads)
-    : simulation_(server::make_simulation(load(scene, overrides), threads)) {
+SceneRun::SceneRun(const std::filesystem::path& scene, const std::vector<std::string>& overrides, int threads,
+                   Walls walls)
+    : simulation_(simulate(load(scene, overrides), threads, walls)), masses_(initial_masses(simulation_)) {
   if (simulation_.bodies.empty()) return;
   world_ = std::make_unique<rigid::World>(clients::to_world(simulation_.scene));
   world_->start(to_rigid(simulation_.initial_wrenches));
@@ -40,6 +60,14 @@ bool SceneRun::next_output() {
 
 bool SceneRun::next_step() {
   if (step_ >= simulation_.clock.steps()) return false;
+  const auto start = std::chrono::steady_clock::now();
+  advance();
+  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (step_ % kGuardInterval == 0 || is_output()) guard();
+  return true;
+}
+
+void SceneRun::advance() {
   ++step_;
   const double dt = protocol::seconds(simulation_.clock.duration(step_));
   if (world_) {
@@ -48,7 +76,10 @@ bool SceneRun::next_step() {
   }
   simulation_.solver->step(dt, simulation_.bodies);
   if (world_ && world_->has_free_bodies()) world_->correct(dt, to_rigid(simulation_.solver->wrenches()));
-  return true;
+}
+
+void SceneRun::guard() const {
+  server::Guard(scene()).check(solver().snapshot(), time());
 }
 
 double SceneRun::time() const {
@@ -58,8 +89,8 @@ double SceneRun::end_time() const {
   return protocol::seconds(simulation_.clock.time(simulation_.clock.steps()));
 }
 
-std::string result_file(const std::string& name) {
-  return std::string(SLUICE_RESULTS) + "/" + name;
+Outcome SceneRun::outcome(std::vector<Figure> figures, double error) const {
+  return {std::move(figures), error, seconds_, simulation_.fluid_particles, step_};
 }
 
 }  // namespace sluice::validation

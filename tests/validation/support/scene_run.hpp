@@ -1,23 +1,29 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "rigid/world.hpp"
 #include "server/simulation.hpp"
+#include "validation/support/case.hpp"
 
 namespace sluice::validation {
 
-// A scene of clients/scenes run in this process: the server's simulation and the rigid process's world,
-// coupled as the protocol couples them.
+// What a run measures beside the state.
+enum class Walls { kNotMeasured, kForceMeasured };
+
+// A scene run in this process: the server's simulation and the rigid process's world, coupled as the protocol
+// couples them.
 class SceneRun {
  public:
-  // `scene` without ending, e.g. "dam_break"; overrides as for `sluice run --set`.
-  explicit SceneRun(const std::string& scene, const std::vector<std::string>& overrides = {},
-                    int threads = 1);
+  // Overrides as for `sluice run --set`. Throws SceneError.
+  explicit SceneRun(const std::filesystem::path& scene, const std::vector<std::string>& overrides = {},
+                    int threads = 1, Walls walls = Walls::kNotMeasured);
 
-  // Advances by one fluid step, or to the next output time; false when the run is over.
+  // Advances by one fluid step, or to the next output time; false when the run is over. Throws server::Stop
+  // when the fluid has become unstable.
   bool next_step();
   bool next_output();
   [[nodiscard]] bool is_output() const { return simulation_.clock.is_output(step_); }
@@ -26,17 +32,24 @@ class SceneRun {
   [[nodiscard]] double end_time() const;
   [[nodiscard]] const Scene& scene() const { return simulation_.scene; }
   [[nodiscard]] const fluid::Solver& solver() const { return *simulation_.solver; }
+  // Of every fluid particle, in the order of snapshots [kg].
+  [[nodiscard]] const std::vector<double>& masses() const { return masses_; }
   // Of a body at the present time, and the fluid's action on it.
   [[nodiscard]] const fluid::Kinematics& body(std::size_t b) const { return simulation_.bodies[b]; }
   [[nodiscard]] const fluid::Wrench& wrench(std::size_t b) const { return solver().wrenches()[b]; }
 
+  // An outcome with what the stepping cost so far.
+  [[nodiscard]] Outcome outcome(std::vector<Figure> figures, double error) const;
+
  private:
+  void advance();
+  void guard() const;
+
   server::Simulation simulation_;
   std::unique_ptr<rigid::World> world_;
+  std::vector<double> masses_;
   std::uint64_t step_ = 0;
+  double seconds_ = 0;  // wall-clock time in advance()
 };
-
-// Where a case leaves its figures: the build tree's validation folder.
-std::string result_file(const std::string& name);
 
 }  // namespace sluice::validation

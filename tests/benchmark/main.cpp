@@ -1,0 +1,74 @@
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+
+#include "benchmark/accuracy.hpp"
+#include "benchmark/formulations.hpp"
+#include "protocol/error.hpp"
+#include "validation/support/case.hpp"
+
+namespace sluice::benchmark {
+namespace {
+
+template <typename Named>
+std::string names(const std::vector<Named>& all) {
+  std::string text;
+  for (const Named& one : all) text += (text.empty() ? "" : ", ") + one.name;
+  return text;
+}
+
+CLI::App* add_accuracy(CLI::App& app, AccuracyOptions& options) {
+  CLI::App* command = app.add_subcommand("accuracy", "Error against a reference and run time, case by case");
+  command->add_option("--case", options.cases, "Of: " + names(validation::all_cases()))
+      ->type_name("NAME ...");
+  command
+      ->add_option("--formulation", options.formulations,
+                   "Of: " + names(all_formulations()) + "; 'default' alone when left out")
+      ->type_name("NAME ...");
+  command->add_flag("--quick", options.quick, "Coarse resolutions only; nothing is stated of those");
+  command->add_option("--resolution", options.resolutions, "These instead of the cases' own")
+      ->check(CLI::PositiveNumber)
+      ->excludes("--quick")
+      ->type_name("N ...");
+  command->add_option("--csv", options.csv, "Write the table to this file")->type_name("FILE");
+  command->add_option("--plot", options.plot, "Draw error over run time")->type_name("FILE.png");
+  command->add_option("--threads", options.threads, "Threads of the solver")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N")
+      ->capture_default_str();
+  return command;
+}
+
+int bench(int argc, char** argv) {
+  CLI::App app{"What the solver's results are worth and what they cost."};
+  app.name("sluice bench");
+  app.require_subcommand(1);
+  app.set_help_flag();
+  app.set_help_all_flag("-h,--help", "Print this help message and exit");
+  AccuracyOptions options;
+  add_accuracy(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? protocol::kDone : protocol::kBadInput;
+  }
+  return accuracy(options);
+}
+
+}  // namespace
+}  // namespace sluice::benchmark
+
+int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("bench"));
+  spdlog::set_pattern("[%n] %v");
+  try {
+    return sluice::benchmark::bench(argc, argv);
+  } catch (const sluice::protocol::InputError& error) {
+    spdlog::error("{}", error.what());
+    return sluice::protocol::kBadInput;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return sluice::protocol::kProcessFailed;
+  }
+}

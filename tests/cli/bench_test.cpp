@@ -1,0 +1,49 @@
+// `sluice bench`: what it prints, writes and refuses.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "tests/cli/command.hpp"
+
+namespace sluice::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+TEST(Bench, PrintsItsTableAndWritesItsFiles) {
+  const TemporaryDirectory directory;
+  const Outcome outcome =
+      run_program("sluice",
+                  {"bench", "accuracy", "--resolution", "8", "6", "--case", "elliptical_drop",
+                   "--formulation", "default", "h1.3", "--csv", "a.csv", "--plot", "a.png"},
+                  directory.path());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("elliptical_drop: "), HasSubstr("longer semi-axis"),
+                                 HasSubstr("\n  h1.3 "), HasSubstr("particles")));
+  const std::string csv = read_text(directory.path() / "a.csv");
+  // A line of names, and three figures of two formulations at two resolutions.
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3 * 2 * 2);
+  EXPECT_LT(csv.find("elliptical_drop,default,6,"), csv.find("elliptical_drop,default,8,"));
+  EXPECT_THAT(read_text(directory.path() / "a.png"), HasSubstr("PNG"));
+}
+
+TEST(Bench, RefusesWhatDoesNotExist) {
+  const TemporaryDirectory directory;
+  const auto refusal = [&](const std::vector<std::string>& arguments) {
+    std::vector<std::string> all{"bench", "accuracy", "--quick"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Outcome outcome = run_program("sluice", all, directory.path());
+    EXPECT_EQ(outcome.code, 1);
+    return outcome.err;
+  };
+  EXPECT_THAT(refusal({"--case", "rain"}),
+              AllOf(HasSubstr("there is no case 'rain'"), HasSubstr("elliptical_drop")));
+  EXPECT_THAT(refusal({"--formulation", "best"}),
+              AllOf(HasSubstr("there is no formulation 'best'"), HasSubstr("default")));
+  EXPECT_THAT(refusal({"--case", "elliptical_drop", "--csv", "no/where.csv"}),
+              AllOf(HasSubstr("no/where.csv"), HasSubstr("existing directory")));
+}
+
+}  // namespace
+}  // namespace sluice::test

@@ -1,0 +1,24 @@
+if(NOT SLUICE_TESTS)
+  return()
+endif()
+find_package(GTest REQUIRED)
+find_package(rapidcheck REQUIRED)
+include(GoogleTest)
+
+# A program made of these sources; every test in it carries the label.
+function(sluice_test_of name label sources)
+  add_executable(${name} ${sources})
+  target_link_libraries(${name} PRIVATE ${ARGN} sluice_options GTest::gmock_main rapidcheck)
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+  target_compile_definitions(${name} PRIVATE
+    SLUICE_BIN="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}" SLUICE_SOURCE="${CMAKE_SOURCE_DIR}")
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES LABELS ${label} TIMEOUT 600)
+endfunction()
+
+# One program a folder, made of all its sources.
+function(sluice_test name label)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
+  if(sources)
+    sluice_test_of(${name} ${label} "${sources}" ${ARGN})
+  endif()
+endfunction()

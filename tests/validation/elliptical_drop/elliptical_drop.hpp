@@ -1,0 +1,9 @@
+#pragma once
+
+#include "validation/support/case.hpp"
+
+namespace sluice::validation {
+
+Case elliptical_drop();
+
+}  // namespace sluice::validation

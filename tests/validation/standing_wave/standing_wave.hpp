@@ -1,0 +1,10 @@
+#pragma once
+
+#include "validation/support/case.hpp"
+
+namespace sluice::validation {
+
+Case standing_wave();
+Case viscous_standing_wave();
+
+}  // namespace sluice::validation

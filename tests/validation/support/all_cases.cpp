@@ -1,0 +1,19 @@
+#include "validation/dam_break/dam_break.hpp"
+#include "validation/drop_impact/drop_impact.hpp"
+#include "validation/elliptical_drop/elliptical_drop.hpp"
+#include "validation/hydrostatic_column/hydrostatic_column.hpp"
+#include "validation/jet_on_wall/jet_on_wall.hpp"
+#include "validation/rotating_patch/rotating_patch.hpp"
+#include "validation/standing_wave/standing_wave.hpp"
+#include "validation/taylor_green/taylor_green.hpp"
+
+namespace sluice::validation {
+
+const std::vector<Case>& all_cases() {
+  static const std::vector<Case> cases{hydrostatic_column(), standing_wave(),   viscous_standing_wave(),
+                                       rotating_patch(),     elliptical_drop(), taylor_green(),
+                                       jet_on_wall(),        dam_break(),       drop_impact()};
+  return cases;
+}
+
+}  // namespace sluice::validation
