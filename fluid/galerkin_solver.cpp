@@ -7,6 +7,7 @@
 #include "fluid/boundary_velocity.hpp"
 #include "fluid/gradient_sweep.hpp"
 #include "fluid/stress.hpp"
+#include "fluid/tension_control.hpp"
 
 namespace sluice::fluid {
 
@@ -54,6 +55,7 @@ GalerkinSolver<Dim>::GalerkinSolver(const Setup& setup)
       bodies_(setup.bodies.size()),
       wrench_(setup.bodies.size() + 1),
       measure_wall_force_(setup.measure_wall_force),
+      tension_control_(setup.formulation.tension_control),
       courant_(setup.formulation.courant) {}
 
 template <int Dim>
@@ -70,9 +72,10 @@ void GalerkinSolver<Dim>::start(std::span<const Kinematics> bodies) {
   compute_gradients();
   compute_stress();
   extrapolate_to_boundary();
+  if (tension_control_ || shifting_.is_used()) surface_.detect(model_, fluid_, parallel_);
   compute_forces();
   collect_wrenches();
-  if (shifting_.is_used()) shifting_.compute(model_, fluid_, boundary_, search_, parallel_);
+  if (shifting_.is_used()) shifting_.compute(model_, fluid_, boundary_, search_, surface_, parallel_);
   update_volumes();
 }
 
@@ -93,9 +96,10 @@ void GalerkinSolver<Dim>::step(double dt, std::span<const Kinematics> bodies) {
   advance_density(dt);
   compute_stress();
   extrapolate_to_boundary();
+  if (tension_control_ || shifting_.is_used()) surface_.detect(model_, fluid_, parallel_);
   compute_forces();
   collect_wrenches();
-  if (shifting_.is_used()) shifting_.compute(model_, fluid_, boundary_, search_, parallel_);
+  if (shifting_.is_used()) shifting_.compute(model_, fluid_, boundary_, search_, surface_, parallel_);
   update_volumes();
   kick(0.5 * dt);
   boundary_work_ += 0.5 * dt * (power_before + boundary_power());
@@ -186,7 +190,9 @@ void GalerkinSolver<Dim>::compute_forces() {
     ForceSweep<Dim> sweep(model_, fluid_, i);
     sweep.gather_fluid(search_.fluid_near_fluid(i));
     sweep.gather_boundary(search_.boundary_near_fluid(i), boundary_);
-    fluid_.acceleration[i] = model_.gravity + sweep.force() / fluid_.mass[i];
+    Vec<Dim> force = sweep.force();
+    if (tension_control_) force += tension_correction(model_, fluid_, boundary_, search_, surface_, i);
+    fluid_.acceleration[i] = model_.gravity + force / fluid_.mass[i];
     fluid_.density_rate[i] = sweep.density_rate();
   });
 }

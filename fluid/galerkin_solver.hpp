@@ -50,11 +50,13 @@ class GalerkinSolver final : public Solver {
   BoundaryParticles<Dim> boundary_;
   NeighborSearch<Dim> search_;
   Period period_;
+  FreeSurface<Dim> surface_;
   Shifting<Dim> shifting_;
   std::vector<Kinematics> bodies_;
   std::vector<Reaction<Dim>> reaction_;  // on the active boundary particles
   std::vector<Wrench> wrench_;           // walls, then the bodies
   bool measure_wall_force_;
+  bool tension_control_;
   double courant_;
   double boundary_work_ = 0;
 };

@@ -1,14 +1,10 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <vector>
 
 #include "fluid/boundary.hpp"
+#include "fluid/free_surface.hpp"
 #include "fluid/model.hpp"
-#include "fluid/neighbor_search.hpp"
-#include "fluid/parallel.hpp"
-#include "fluid/particles.hpp"
 
 namespace sluice::fluid {
 
@@ -28,13 +24,12 @@ class Shifting {
 
   // The drift velocities for the next step, from the present arrangement.
   void compute(const Model<Dim>& model, const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
-               const NeighborSearch<Dim>& search, const Parallel& parallel);
+               const NeighborSearch<Dim>& search, const FreeSurface<Dim>& surface, const Parallel& parallel);
   // Moves the particles by dt [s].
   void apply(double dt, Particles<Dim>& fluid, const Parallel& parallel) const;
 
  private:
   double strength_;
-  std::vector<std::uint8_t> at_surface_;
   std::vector<Vec<Dim>> velocity_;  // [m/s]
 };
 

@@ -37,6 +37,7 @@ fluid::Formulation to_formulation(const Formulation& formulation) {
   if (formulation.has_artificial_viscosity())
     result.artificial_viscosity = formulation.artificial_viscosity();
   if (formulation.has_moment_floor()) result.moment_floor = formulation.moment_floor();
+  if (formulation.has_tension_control()) result.tension_control = formulation.tension_control();
   if (formulation.has_shifting()) result.shifting = formulation.shifting();
   if (formulation.has_courant()) result.courant = formulation.courant();
   return result;
