@@ -14,8 +14,8 @@ namespace sluice::fluid {
 // does not reach the wall, e.g. above the waterline; a dry boundary particle must not stand in for liquid, or
 // the contact line creeps. The ramp is half a spacing of static head wide, and never narrower than a
 // millionth of rho0 c0^2.
-template <int Dim>
-double wetness(const Model<Dim>& model, double head, double acceleration) {
+template <int Dim, typename Kernel>
+double wetness(const Model<Dim, Kernel>& model, double head, double acceleration) {
   const double c0 = model.eos.sound_speed();
   const double scale = model.eos.rest_density() * (acceleration * model.spacing + 1e-6 * c0 * c0);
   return std::clamp(0.5 + 2.0 * head / scale, 0.0, 1.0);
@@ -23,15 +23,15 @@ double wetness(const Model<Dim>& model, double head, double acceleration) {
 
 // The viscous stress at boundary particle w. Past a no-slip surface it goes on linearly; along a surface on
 // which the fluid slides there is no shear, and the mirror image has its sign changed.
-template <int Dim>
-Mat<Dim> boundary_stress(const Model<Dim>& model, const Particles<Dim>& fluid,
+template <int Dim, typename Kernel>
+Mat<Dim> boundary_stress(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid,
                          std::span<const std::uint32_t> neighbors, std::size_t w,
                          const BoundaryParticles<Dim>& boundary) {
   using Flat = Eigen::Matrix<double, Dim * Dim, 1>;
   Extrapolation<Dim, Dim * Dim> stress;
   for (const std::uint32_t f : neighbors) {
     const Vec<Dim> x_fw = fluid.node[f].x - boundary.node()[w].x;
-    stress.add(model.kernel.value(x_fw.squaredNorm()), x_fw, fluid.stress[f].reshaped());
+    stress.add(model.kernel.value(x_fw), x_fw, fluid.stress[f].reshaped());
   }
   if (boundary.no_slip(w)) {
     const Flat at_w = stress.mean() - stress.slope(model.moment_floor) * stress.centroid();
@@ -48,8 +48,8 @@ Mat<Dim> boundary_stress(const Model<Dim>& model, const Particles<Dim>& fluid,
 //   p_w = sum_f (p_f + rho_f (g - a_w) . n n . x_wf) W_wf / sum_f W_wf + slope . (x_wf)_along,
 // rho_w alike with dp/c0^2; and volume ratio, averaged, and viscous stress. Tension is not passed on: a wall
 // does not hold the fluid.
-template <int Dim>
-void extrapolate(const Model<Dim>& model, const Particles<Dim>& fluid,
+template <int Dim, typename Kernel>
+void extrapolate(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid,
                  std::span<const std::uint32_t> neighbors, std::size_t w, BoundaryParticles<Dim>& boundary) {
   Node<Dim>& node = boundary.node()[w];
   const Surface<Dim>& surface = boundary.surface(w);
@@ -62,7 +62,7 @@ void extrapolate(const Model<Dim>& model, const Particles<Dim>& fluid,
     const Node<Dim>& n = fluid.node[f];
     const Vec<Dim> x_fw = n.x - node.x;
     const double r2 = x_fw.squaredNorm();
-    const double W = model.kernel.value(r2);
+    const double W = model.kernel.value(x_fw);
     const double dp = -n.rho * pull.dot(x_fw);
     const double approach = std::max(0.0, (boundary.velocity(w) - n.v).dot(x_fw));
     state.add(W, x_fw, {fluid.fit[f].floored ? 0.0 : fluid.pressure[f] + dp, n.rho + dp * per_c2});

@@ -21,8 +21,8 @@ inline constexpr double kLargestRatio = 2.0, kLargestNoSlipRatio = 6.0;
 // surface, changes sign as well. With the body's own velocity instead, the divergence near a wall is about
 // half of the fluid's and its stress power is lost: a standing wave in a tank one wave long loses 2 % a
 // period at H/25.
-template <int Dim>
-void mirror_velocity(const Model<Dim>& model, const Particles<Dim>& fluid,
+template <int Dim, typename Kernel>
+void mirror_velocity(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid,
                      std::span<const std::uint32_t> neighbors, std::size_t w,
                      BoundaryParticles<Dim>& boundary) {
   Node<Dim>& node = boundary.node()[w];
@@ -30,7 +30,7 @@ void mirror_velocity(const Model<Dim>& model, const Particles<Dim>& fluid,
   Extrapolation<Dim, Dim> flow;
   for (const std::uint32_t f : neighbors) {
     const Vec<Dim> x_fw = fluid.node[f].x - node.x;
-    flow.add(model.kernel.value(x_fw.squaredNorm()), x_fw, fluid.node[f].v - body);
+    flow.add(model.kernel.value(x_fw), x_fw, fluid.node[f].v - body);
   }
   node.v = body;
   if (flow.empty()) return;

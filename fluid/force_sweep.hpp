@@ -10,9 +10,9 @@ namespace sluice::fluid {
 
 // Force of boundary particle w, as a quadrature point with g = 0 and the lattice's G, on fluid particle i:
 //   -V_i V_w W sigma_w G x_iw   (README.md, "Boundary particles")
-template <int Dim>
-Vec<Dim> boundary_traction(const Model<Dim>& model, const BoundaryParticles<Dim>& boundary, std::size_t w,
-                           double volume_i, double W, const Vec<Dim>& x_iw) {
+template <int Dim, typename Kernel>
+Vec<Dim> boundary_traction(const Model<Dim, Kernel>& model, const BoundaryParticles<Dim>& boundary,
+                           std::size_t w, double volume_i, double W, const Vec<Dim>& x_iw) {
   const double scale = volume_i * boundary.sampled_volume(w) * W * model.boundary_G;
   Vec<Dim> force = scale * boundary.pressure[w] * x_iw;
   if (!boundary.stress.empty()) force -= scale * (boundary.stress[w] * x_iw);
@@ -24,8 +24,8 @@ Vec<Dim> boundary_traction(const Model<Dim>& model, const BoundaryParticles<Dim>
 // the paper leaves open and without its velocity switch, so that it conserves energy: a single particle that
 // drifts into the wall between its neighbours changes no divergence, and so no pressure would stop it. Force
 // on the particle at the head of x_iw.
-template <int Dim>
-Vec<Dim> guard_force(const Model<Dim>& model, const Vec<Dim>& x_iw) {
+template <int Dim, typename Kernel>
+Vec<Dim> guard_force(const Model<Dim, Kernel>& model, const Vec<Dim>& x_iw) {
   const double r2 = x_iw.squaredNorm();
   if (r2 >= model.guard_range * model.guard_range) return Vec<Dim>::Zero();
   const double r = std::sqrt(r2 + model.tiny_r2);
@@ -33,8 +33,8 @@ Vec<Dim> guard_force(const Model<Dim>& model, const Vec<Dim>& x_iw) {
 }
 
 // Energy [J] stored in that spring.
-template <int Dim>
-double guard_energy(const Model<Dim>& model, const Vec<Dim>& x_iw) {
+template <int Dim, typename Kernel>
+double guard_energy(const Model<Dim, Kernel>& model, const Vec<Dim>& x_iw) {
   const double r2 = x_iw.squaredNorm();
   if (r2 >= model.guard_range * model.guard_range) return 0.0;
   const double stretch = model.guard_range - std::sqrt(r2 + model.tiny_r2);
@@ -44,10 +44,10 @@ double guard_energy(const Model<Dim>& model, const Vec<Dim>& x_iw) {
 // Sweep 2: what the neighbours k of particle i do to it. The internal force is CF (43) with nodal quadrature,
 //   f_i = -sum_k V_k sigma_k grad N_i(x_k) = -V_i sum_k W_ik (s_k + S_k x_ik),
 // with s and S from sweep 1; k runs over the fluid, i itself (x_ii = 0) and the boundary.
-template <int Dim>
+template <int Dim, typename Kernel = WendlandC2<Dim>>
 class ForceSweep {
  public:
-  ForceSweep(const Model<Dim>& model, const Particles<Dim>& fluid, std::size_t i)
+  ForceSweep(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid, std::size_t i)
       : model_(model), fluid_(fluid), node_(fluid.node[i]), source_(fluid.source[i]) {
     internal_ = model.kernel.at_zero() * source_.s;
   }
@@ -59,7 +59,7 @@ class ForceSweep {
   void gather_boundary(std::span<const std::uint32_t> neighbors, const BoundaryParticles<Dim>& boundary) {
     for (const std::uint32_t w : neighbors) {
       const Vec<Dim> x_iw = node_.x - boundary.node()[w].x;
-      const double W = model_.kernel.value(x_iw.squaredNorm());
+      const double W = model_.kernel.value(x_iw);
       traction_ += boundary_traction(model_, boundary, w, node_.volume, W, x_iw) + guard_force(model_, x_iw);
     }
   }
@@ -73,7 +73,7 @@ class ForceSweep {
   void add_fluid(const Node<Dim>& k, const Source<Dim>& from) {
     const Vec<Dim> x_ik = node_.x - k.x;
     const double r2 = x_ik.squaredNorm();
-    const auto [W, F] = model_.kernel.value_and_slope(r2);
+    const auto [W, F] = model_.kernel.value_and_slope(x_ik);
     internal_ += W * (from.s + from.S * x_ik);
 
     // Artificial viscosity on what a linear velocity field does not explain (README.md, "Dissipation"):
@@ -88,7 +88,7 @@ class ForceSweep {
     diffusion_ += VF * (k.rho - node_.rho + 0.5 * (source_.grad_rho + from.grad_rho).dot(x_ik));
   }
 
-  const Model<Dim>& model_;
+  const Model<Dim, Kernel>& model_;
   const Particles<Dim>& fluid_;
   const Node<Dim>& node_;
   const Source<Dim>& source_;
@@ -109,15 +109,15 @@ struct Reaction {
 
 // The exact reaction: what the fluid particles near boundary particle w do to it. Fluid particle i
 // distributes its stress to w like to any neighbour, and takes w's traction with the opposite sign.
-template <int Dim>
-Reaction<Dim> reaction(const Model<Dim>& model, const Particles<Dim>& fluid,
+template <int Dim, typename Kernel>
+Reaction<Dim> reaction(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid,
                        std::span<const std::uint32_t> neighbors, std::size_t w,
                        const BoundaryParticles<Dim>& boundary) {
   const Node<Dim>& node = boundary.node()[w];
   Reaction<Dim> sum;
   for (const std::uint32_t i : neighbors) {
     const Vec<Dim> x_iw = fluid.node[i].x - node.x;
-    const double W = model.kernel.value(x_iw.squaredNorm());
+    const double W = model.kernel.value(x_iw);
     const Vec<Dim> traction = boundary_traction<Dim>(model, boundary, w, fluid.node[i].volume, W, x_iw);
     sum.force -= node.volume * W * (fluid.source[i].s - fluid.source[i].S * x_iw);
     sum.force -= traction + guard_force<Dim>(model, x_iw);

@@ -13,8 +13,8 @@ namespace sluice::fluid {
 // A particle is at the surface where there is little around it (on a calm surface m0 = 0.76, one row below
 // 0.99) and that on one side (there |g| dx is 1.7 and 0.06). In torn fluid inside, one of the two may be so,
 // not both.
-template <int Dim>
-bool is_at_surface(const Model<Dim>& model, const Fit<Dim>& fit) {
+template <int Dim, typename Kernel>
+bool is_at_surface(const Model<Dim, Kernel>& model, const Fit<Dim>& fit) {
   return fit.m0 < 0.85 && fit.g.norm() * model.spacing > 0.5;
 }
 
@@ -23,7 +23,8 @@ template <int Dim>
 class FreeSurface {
  public:
   // Looks at all particles, images included.
-  void detect(const Model<Dim>& model, const Particles<Dim>& fluid, const Parallel& parallel) {
+  template <typename Kernel>
+  void detect(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid, const Parallel& parallel) {
     at_surface_.resize(fluid.node.size());
     parallel.for_each(at_surface_.size(),
                       [&](std::size_t i) { at_surface_[i] = is_at_surface(model, fluid.fit[i]); });

@@ -13,7 +13,7 @@ namespace sluice::fluid {
 
 // The Galerkin MLS scheme with nodal quadrature in Dim dimensions. The order inside a step matters: density
 // advanced with velocities older than the positions is unstable.
-template <int Dim>
+template <int Dim, typename Kernel>
 class GalerkinSolver final : public Solver {
  public:
   explicit GalerkinSolver(const Setup& setup);
@@ -35,6 +35,7 @@ class GalerkinSolver final : public Solver {
   void mirror_velocities();
   void compute_gradients();
   void advance_density(double dt);
+  [[nodiscard]] double quadrature_volume(std::size_t i) const;
   void compute_stress();
   void extrapolate_to_boundary();
   void compute_forces();
@@ -44,7 +45,7 @@ class GalerkinSolver final : public Solver {
   [[nodiscard]] bool is_measured(std::size_t w) const;
   [[nodiscard]] double boundary_power() const;
 
-  Model<Dim> model_;
+  Model<Dim, Kernel> model_;
   Parallel parallel_;
   Particles<Dim> fluid_;
   BoundaryParticles<Dim> boundary_;
@@ -56,6 +57,7 @@ class GalerkinSolver final : public Solver {
   std::vector<Reaction<Dim>> reaction_;  // on the active boundary particles
   std::vector<Wrench> wrench_;           // walls, then the bodies
   bool measure_wall_force_;
+  Weights weights_;
   bool tension_control_;
   double courant_;
   double boundary_work_ = 0;

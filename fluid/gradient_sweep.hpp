@@ -19,10 +19,10 @@ struct Gradients {
 // Sweep 1: one pass over the neighbours of particle i collects
 //   m0, m1, m2,   P = sum V W v_ji,   Q = sum V W v_ji (x) x_ji,   and the same of the density,
 // from which L = P (x) g + Q G, CF (62). Differences to i may be used because sum grad N = 0, CF (103).
-template <int Dim>
+template <int Dim, typename Kernel = WendlandC2<Dim>>
 class GradientSweep {
  public:
-  GradientSweep(const Model<Dim>& model, const Node<Dim>& i) : model_(model), i_(i) {
+  GradientSweep(const Model<Dim, Kernel>& model, const Node<Dim>& i) : model_(model), i_(i) {
     moments_.add(i.volume * model.kernel.at_zero(), Vec<Dim>::Zero());
   }
 
@@ -41,7 +41,7 @@ class GradientSweep {
  private:
   void add(const Node<Dim>& j) {
     const Vec<Dim> x_ji = j.x - i_.x;
-    const double VW = j.volume * model_.kernel.value(x_ji.squaredNorm());
+    const double VW = j.volume * model_.kernel.value(x_ji);
     moments_.add(VW, x_ji);
     const Vec<Dim> VWv = VW * (j.v - i_.v);
     P_ += VWv;
@@ -51,7 +51,7 @@ class GradientSweep {
     q_ += VWrho * x_ji;
   }
 
-  const Model<Dim>& model_;
+  const Model<Dim, Kernel>& model_;
   const Node<Dim>& i_;
   Moments<Dim> moments_;
   Vec<Dim> P_ = Vec<Dim>::Zero();

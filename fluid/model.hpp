@@ -8,7 +8,7 @@
 namespace sluice::fluid {
 
 // The constants of a run, derived once from the setup.
-template <int Dim>
+template <int Dim, typename Kernel = WendlandC2<Dim>>
 struct Model {
   explicit Model(const Setup& setup)
       : spacing(setup.spacing),
@@ -32,7 +32,7 @@ struct Model {
 
   double spacing;  // dx [m]
   double h;        // smoothing length [m]
-  WendlandC2<Dim> kernel;
+  Kernel kernel;
   EquationOfState eos;
   Vec<Dim> gravity;             // [m/s^2]
   double mu;                    // [Pa s]

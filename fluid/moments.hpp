@@ -67,6 +67,18 @@ bool eigenvalues_above(const Mat<Dim>& a, double bound) {
   return true;
 }
 
+// The matrix with the eigenvalues of C raised to at least `floor`, inverted; `floored` says whether that was
+// needed.
+template <int Dim>
+Mat<Dim> floored_inverse(const Mat<Dim>& C, double floor, bool& floored) {
+  floored = !eigenvalues_above<Dim>(C, floor);
+  if (!floored) return symmetric_inverse<Dim>(C);
+  // The iterative solver: square roots only, so its bits do not depend on the processor's libm.
+  const Eigen::SelfAdjointEigenSolver<Mat<Dim>> eigen(C);
+  const Vec<Dim> inverse = eigen.eigenvalues().cwiseMax(floor).cwiseInverse();
+  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
 // The fit from the moments, with the eigenvalues of C raised to at least `floor` [the unit of C]. Whatever G
 // becomes, g = -G m1/m0 keeps sum grad N = 0 (linear momentum), and G keeps the eigenvectors of C (a
 // pressure then exerts no net moment: angular momentum).
@@ -74,15 +86,7 @@ template <int Dim>
 Fit<Dim> fit(const Moments<Dim>& m, double floor) {
   const Mat<Dim> C = m.m2 - m.m1 * m.m1.transpose() / m.m0;
   Fit<Dim> f;
-  f.floored = !eigenvalues_above<Dim>(C, floor);
-  if (f.floored) {
-    // The iterative solver: square roots only, so its bits do not depend on the processor's libm.
-    const Eigen::SelfAdjointEigenSolver<Mat<Dim>> eigen(C);
-    const Vec<Dim> inverse = eigen.eigenvalues().cwiseMax(floor).cwiseInverse();
-    f.G = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
-  } else {
-    f.G = symmetric_inverse<Dim>(C);
-  }
+  f.G = floored_inverse<Dim>(C, floor, f.floored);
   f.m0 = m.m0;
   f.g = -f.G * m.m1 / m.m0;
   return f;

@@ -19,8 +19,15 @@ constexpr double stable_smoothing(int dimension) {
   return dimension == 2 ? 1.45 : 1.49;
 }
 
+enum class KernelKind { wendland, cubic_spline, tensor_spline, sinc_squared };  // kernel.hpp
+
+// What weighs the neighbours in the moments: their volume as well, CF (11), or the kernel alone, CF (12).
+enum class Weights { kernel_and_volume, kernel };
+
 // Numerical parameters; README.md, "Parameters", has the measurements behind the defaults.
 struct Formulation {
+  KernelKind kernel = KernelKind::wendland;
+  Weights weights = Weights::kernel_and_volume;
   double smoothing = stable_smoothing(2);  // h/dx
   double density_diffusion = 0.1;          // delta
   double artificial_viscosity = 0.02;      // alpha

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fluid/galerkin_solver.hpp"
+#include "fluid/kernel.hpp"
 
 namespace sluice::fluid {
 
@@ -36,12 +37,27 @@ void check(const Setup& setup) {
   require(setup.fluid.volume > 0, "particle volume [m^Dim]", setup.fluid.volume, "it must be positive");
 }
 
+template <template <int> typename Kernel>
+std::unique_ptr<Solver> make(const Setup& setup) {
+  if (setup.dimension == 2) return std::make_unique<GalerkinSolver<2, Kernel<2>>>(setup);
+  return std::make_unique<GalerkinSolver<3, Kernel<3>>>(setup);
+}
+
 }  // namespace
 
 std::unique_ptr<Solver> make_solver(const Setup& setup) {
   check(setup);
-  if (setup.dimension == 2) return std::make_unique<GalerkinSolver<2>>(setup);
-  return std::make_unique<GalerkinSolver<3>>(setup);
+  switch (setup.formulation.kernel) {
+    case KernelKind::cubic_spline:
+      return make<CubicSpline>(setup);
+    case KernelKind::tensor_spline:
+      return make<TensorSpline>(setup);
+    case KernelKind::sinc_squared:
+      return make<SincSquared>(setup);
+    case KernelKind::wendland:
+      break;
+  }
+  return make<WendlandC2>(setup);
 }
 
 }  // namespace sluice::fluid

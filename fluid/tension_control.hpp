@@ -12,22 +12,22 @@ namespace sluice::fluid {
 // Force of a uniform unit pressure on particle i, over its volume: zero on a lattice; else it drives the
 // arrangement, to order under pressure and to clumps and voids under tension.
 //   U_i = sum_k V_k W_ik (g_k + G_k x_ik), over the fluid and i itself
-template <int Dim>
-Vec<Dim> disorder(const Model<Dim>& model, const Particles<Dim>& fluid,
+template <int Dim, typename Kernel>
+Vec<Dim> disorder(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid,
                   std::span<const std::uint32_t> neighbors, std::size_t i) {
   const Vec<Dim>& x = fluid.node[i].x;
   Vec<Dim> sum = model.kernel.at_zero() * fluid.node[i].volume * fluid.fit[i].g;
   for (const std::uint32_t k : neighbors) {
     const Vec<Dim> x_ik = x - fluid.node[k].x;
-    const double VW = fluid.node[k].volume * model.kernel.value(x_ik.squaredNorm());
+    const double VW = fluid.node[k].volume * model.kernel.value(x_ik);
     sum += VW * (fluid.fit[k].g + fluid.fit[k].G * x_ik);
   }
   return sum;
 }
 
-template <int Dim>
-bool sees_boundary(const Model<Dim>& model, const Vec<Dim>& x, std::span<const std::uint32_t> neighbors,
-                   const BoundaryParticles<Dim>& boundary) {
+template <int Dim, typename Kernel>
+bool sees_boundary(const Model<Dim, Kernel>& model, const Vec<Dim>& x,
+                   std::span<const std::uint32_t> neighbors, const BoundaryParticles<Dim>& boundary) {
   const double support2 = model.kernel.support() * model.kernel.support();
   return std::any_of(neighbors.begin(), neighbors.end(),
                      [&](std::uint32_t w) { return (boundary.node()[w].x - x).squaredNorm() < support2; });
@@ -41,8 +41,8 @@ bool sees_boundary(const Model<Dim>& model, const Vec<Dim>& x, std::span<const s
 // is not pairwise: momentum inside the fluid closes only to the order of the disorder times the tension; that
 // between fluid and bodies stays exact. Particles under
 // pressure cost nothing. Returns the additional force on particle i.
-template <int Dim>
-Vec<Dim> tension_correction(const Model<Dim>& model, const Particles<Dim>& fluid,
+template <int Dim, typename Kernel>
+Vec<Dim> tension_correction(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid,
                             const BoundaryParticles<Dim>& boundary, const NeighborSearch<Dim>& search,
                             const FreeSurface<Dim>& surface, std::size_t i) {
   const double p = fluid.pressure[i];

@@ -65,6 +65,13 @@ void check_formulation(const Formulation& formulation, FieldCheck& check) {
     check.within(formulation.artificial_viscosity(), 0, 10, "formulation.artificial_viscosity");
   if (formulation.has_moment_floor())
     check.within(formulation.moment_floor(), 0.01, 1, "formulation.moment_floor");
+  if (!KernelKind_IsValid(formulation.kernel()))
+    check.report("formulation.kernel",
+                 fmt::format("{} is not a kernel; give WENDLAND, CUBIC_SPLINE, TENSOR_SPLINE or SINC_SQUARED",
+                             static_cast<int>(formulation.kernel())));
+  if (!Weights_IsValid(formulation.weights()))
+    check.report("formulation.weights", fmt::format("{} is none; give KERNEL_AND_VOLUME or KERNEL_ALONE",
+                                                    static_cast<int>(formulation.weights())));
   if (formulation.has_shifting()) check.within(formulation.shifting(), 0, 20, "formulation.shifting");
   if (formulation.has_courant()) check.within(formulation.courant(), 0.001, 1, "formulation.courant");
 }

@@ -39,6 +39,20 @@ fluid::Formulation to_formulation(const Formulation& formulation) {
   if (formulation.has_moment_floor()) result.moment_floor = formulation.moment_floor();
   if (formulation.has_tension_control()) result.tension_control = formulation.tension_control();
   if (formulation.has_shifting()) result.shifting = formulation.shifting();
+  switch (formulation.kernel()) {
+    case CUBIC_SPLINE:
+      result.kernel = fluid::KernelKind::cubic_spline;
+      break;
+    case TENSOR_SPLINE:
+      result.kernel = fluid::KernelKind::tensor_spline;
+      break;
+    case SINC_SQUARED:
+      result.kernel = fluid::KernelKind::sinc_squared;
+      break;
+    default:
+      result.kernel = fluid::KernelKind::wendland;
+  }
+  if (formulation.weights() == KERNEL_ALONE) result.weights = fluid::Weights::kernel;
   if (formulation.has_courant()) result.courant = formulation.courant();
   return result;
 }

@@ -8,6 +8,11 @@ const std::vector<Formulation>& all_formulations() {
       {"h1.3", "smoothing length 1.3 spacings", {"formulation.smoothing=1.3"}},
       {"h1.5", "smoothing length 1.5 spacings", {"formulation.smoothing=1.5"}},
       {"alpha0.05", "artificial viscosity 0.05", {"formulation.artificial_viscosity=0.05"}},
+      {"cubic", "cubic spline kernel CF (18)", {"formulation.kernel=CUBIC_SPLINE"}},
+      {"tensor", "tensor-product spline kernel CF (19)", {"formulation.kernel=TENSOR_SPLINE"}},
+      {"sinc2", "sinc squared kernel PC (19)", {"formulation.kernel=SINC_SQUARED"}},
+      {"w", "weights CF (12), kernel alone", {"formulation.weights=KERNEL_ALONE"}},
+      {"no_tension_control", "tension tears", {"formulation.tension_control=false"}},
       {"delta0.05", "density diffusion 0.05", {"formulation.density_diffusion=0.05"}},
   };
   return formulations;

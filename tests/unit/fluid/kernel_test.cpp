@@ -10,30 +10,34 @@
 namespace sluice::fluid {
 namespace {
 
-template <int Dim>
-struct Dimension {
-  static constexpr int value = Dim;
+template <typename K, int Dim>
+struct Case {
+  using Type = K;
+  static constexpr int kDim = Dim;
 };
 
-template <typename D>
+template <typename C>
 class Kernel : public testing::Test {
  protected:
-  static constexpr int kDim = D::value;
+  static constexpr int kDim = C::kDim;
   static constexpr std::array<double, 5> kLengths{1.0, 0.3, 1.5e-3, 7.25, 0.0123};
 };
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
-TYPED_TEST_SUITE(Kernel, Dimensions);
+using Radial = testing::Types<Case<WendlandC2<2>, 2>, Case<WendlandC2<3>, 3>, Case<CubicSpline<2>, 2>,
+                              Case<CubicSpline<3>, 3>, Case<SincSquared<2>, 2>, Case<SincSquared<3>, 3>>;
+TYPED_TEST_SUITE(Kernel, Radial);
 
-// Four-point Gauss-Legendre is exact to degree 7, the degree of W r^2.
+// Four-point Gauss-Legendre, exact to degree 7, on each of 64 panels.
 template <typename Function>
 double integrate(double from, double to, const Function& f) {
   const std::array<std::array<double, 2>, 4> rule{{{-0.861136311594052575224, 0.347854845137453857373},
                                                    {-0.339981043584856264803, 0.652145154862546142627},
                                                    {0.339981043584856264803, 0.652145154862546142627},
                                                    {0.861136311594052575224, 0.347854845137453857373}}};
+  constexpr int kPanels = 64;
+  const double half = 0.5 * (to - from) / kPanels;
   double sum = 0;
-  for (const auto& [point, weight] : rule)
-    sum += 0.5 * (to - from) * weight * f(0.5 * (from + to) + 0.5 * (to - from) * point);
+  for (int panel = 0; panel < kPanels; ++panel)
+    for (const auto& [point, weight] : rule) sum += half * weight * f(from + half * (2 * panel + 1 + point));
   return sum;
 }
 
@@ -45,7 +49,7 @@ double sphere_area(double r) {
 
 TYPED_TEST(Kernel, IntegratesToOne) {
   for (const double h : this->kLengths) {
-    const WendlandC2<TestFixture::kDim> kernel(h);
+    const typename TypeParam::Type kernel(h);
     const double integral = integrate(0.0, kernel.support(), [&](double r) {
       return kernel.value(r * r) * sphere_area<TestFixture::kDim>(r);
     });
@@ -55,9 +59,9 @@ TYPED_TEST(Kernel, IntegratesToOne) {
 
 TYPED_TEST(Kernel, SlopeIsMinusTheDerivativeOverTheDistance) {
   for (const double h : this->kLengths) {
-    const WendlandC2<TestFixture::kDim> kernel(h);
+    const typename TypeParam::Type kernel(h);
     const double scale = kernel.at_zero() / (h * h), e = 1e-5 * h;
-    for (double q = 0.05; q < 2.2; q += 0.05) {
+    for (double q = 0.03; q < 2.2; q += 0.05) {
       const double r = q * h;
       const double central = (kernel.value((r + e) * (r + e)) - kernel.value((r - e) * (r - e))) / (2.0 * e);
       EXPECT_NEAR(kernel.value_and_slope(r * r).f / scale, -central / r / scale, 1e-8) << "q = " << q;
@@ -66,7 +70,7 @@ TYPED_TEST(Kernel, SlopeIsMinusTheDerivativeOverTheDistance) {
 }
 
 TYPED_TEST(Kernel, BothWaysToTheValueAgree) {
-  const WendlandC2<TestFixture::kDim> kernel(0.3);
+  const typename TypeParam::Type kernel(0.3);
   for (double q = 0.0; q < 2.5; q += 0.01) {
     const double r2 = q * q * 0.09;
     EXPECT_DOUBLE_EQ(kernel.value(r2), kernel.value_and_slope(r2).w);
@@ -74,7 +78,7 @@ TYPED_TEST(Kernel, BothWaysToTheValueAgree) {
 }
 
 TYPED_TEST(Kernel, FallsFromTheCentreToTheSupport) {
-  const WendlandC2<TestFixture::kDim> kernel(0.3);
+  const typename TypeParam::Type kernel(0.3);
   EXPECT_DOUBLE_EQ(kernel.value(0.0), kernel.at_zero());
   EXPECT_DOUBLE_EQ(kernel.support(), 0.6);
   for (double r = 0.0; r < 0.58; r += 0.01) {
@@ -85,7 +89,7 @@ TYPED_TEST(Kernel, FallsFromTheCentreToTheSupport) {
 
 TYPED_TEST(Kernel, IsExactlyZeroFromTheSupportOn) {
   for (const double h : this->kLengths) {
-    const WendlandC2<TestFixture::kDim> kernel(h);
+    const typename TypeParam::Type kernel(h);
     const double s = kernel.support();
     for (const double r : {s, 1.000001 * s, 1.5 * s, 1e3 * s, 1e150 * s}) {
       EXPECT_EQ(kernel.value(r * r), 0.0) << "h = " << h << ", r = " << r;
@@ -94,6 +98,21 @@ TYPED_TEST(Kernel, IsExactlyZeroFromTheSupportOn) {
     }
     EXPECT_GT(kernel.value(0.998 * s * s), 0.0);
   }
+}
+
+TEST(TensorSpline, IntegratesToOne) {
+  const TensorSpline<2> kernel(0.3);
+  const double integral = integrate(-0.6, 0.6, [&](double x) {
+    return integrate(-0.6, 0.6, [&](double y) { return kernel.value(Vec<2>(x, y)); });
+  });
+  EXPECT_NEAR(integral, 1.0, 1e-12);
+}
+
+TEST(TensorSpline, ReachesTheCornersOfItsSquare) {
+  const TensorSpline<2> kernel(0.3);
+  EXPECT_GT(kernel.value(Vec<2>(0.59, 0.59)), 0.0);
+  EXPECT_EQ(kernel.value(Vec<2>(0.61, 0.0)), 0.0);
+  EXPECT_GT(kernel.support(), Vec<2>(0.6, 0.6).norm() - 1e-15);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "fluid/kernel.hpp"
 #include "fluid/lattice.hpp"
 #include "tests/unit/fluid/clouds.hpp"
 

@@ -1,21 +1,25 @@
-#include "fluid/galerkin_solver.hpp"
+#pragma once
+
+// The stages of GalerkinSolver. Included by one source file for each kernel, so that they compile side by
+// side.
 
 #include <cassert>
 #include <numeric>
 
 #include "fluid/boundary_sweep.hpp"
 #include "fluid/boundary_velocity.hpp"
+#include "fluid/galerkin_solver.hpp"
 #include "fluid/gradient_sweep.hpp"
 #include "fluid/stress.hpp"
 #include "fluid/tension_control.hpp"
 
 namespace sluice::fluid {
 
-namespace {
+namespace stages {
 
 // Neighbour lists reach this share of the support beyond it: the optimum between longer lists and rarer
 // rebuilds was flat between 0.1 and 0.2 in a developed dam break.
-constexpr double kSkin = 0.15;
+inline constexpr double kSkin = 0.15;
 
 template <int Dim>
 Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos) {
@@ -41,25 +45,26 @@ Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos) {
   return fluid;
 }
 
-}  // namespace
+}  // namespace stages
 
-template <int Dim>
-GalerkinSolver<Dim>::GalerkinSolver(const Setup& setup)
+template <int Dim, typename Kernel>
+GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
     : model_(setup),
       parallel_(setup.threads),
-      fluid_(make_particles<Dim>(setup, model_.eos)),
+      fluid_(stages::make_particles<Dim>(setup, model_.eos)),
       boundary_(setup),
-      search_(model_.kernel.support(), kSkin * model_.kernel.support(), setup.period),
+      search_(model_.kernel.support(), stages::kSkin * model_.kernel.support(), setup.period),
       period_(setup.period),
       shifting_(setup.formulation.shifting),
       bodies_(setup.bodies.size()),
       wrench_(setup.bodies.size() + 1),
       measure_wall_force_(setup.measure_wall_force),
+      weights_(setup.formulation.weights),
       tension_control_(setup.formulation.tension_control),
       courant_(setup.formulation.courant) {}
 
-template <int Dim>
-void GalerkinSolver<Dim>::start(std::span<const Kinematics> bodies) {
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::start(std::span<const Kinematics> bodies) {
   move_boundary(bodies);
   search_.update(fluid_, boundary_, parallel_);
   mirror_velocities();
@@ -81,8 +86,8 @@ void GalerkinSolver<Dim>::start(std::span<const Kinematics> bodies) {
 
 // Kick - drift - kick. Positions of fluid and boundary are those of the end of the step when the velocity
 // gradient is taken, with the velocity of its middle.
-template <int Dim>
-void GalerkinSolver<Dim>::step(double dt, std::span<const Kinematics> bodies) {
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::step(double dt, std::span<const Kinematics> bodies) {
   assert(dt > 0.0);
   const double power_before = boundary_power();
   kick(0.5 * dt);
@@ -105,24 +110,24 @@ void GalerkinSolver<Dim>::step(double dt, std::span<const Kinematics> bodies) {
   boundary_work_ += 0.5 * dt * (power_before + boundary_power());
 }
 
-template <int Dim>
-void GalerkinSolver<Dim>::kick(double dt) {
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::kick(double dt) {
   parallel_.for_each(fluid_.size(), [&](std::size_t i) { fluid_.node[i].v += dt * fluid_.acceleration[i]; });
 }
 
-template <int Dim>
-void GalerkinSolver<Dim>::drift(double dt) {
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::drift(double dt) {
   parallel_.for_each(fluid_.size(), [&](std::size_t i) { fluid_.node[i].x += dt * fluid_.node[i].v; });
 }
 
-template <int Dim>
-void GalerkinSolver<Dim>::move_boundary(std::span<const Kinematics> bodies) {
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::move_boundary(std::span<const Kinematics> bodies) {
   bodies_.assign(bodies.begin(), bodies.end());
   boundary_.move(bodies);
 }
 
-template <int Dim>
-void GalerkinSolver<Dim>::mirror_velocities() {
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::mirror_velocities() {
   const auto& active = search_.active_boundary();
   parallel_.for_each(active.size(), [&](std::size_t a) {
     mirror_velocity<Dim>(model_, fluid_, search_.fluid_near_active(a), active[a], boundary_);
@@ -130,10 +135,10 @@ void GalerkinSolver<Dim>::mirror_velocities() {
 }
 
 // Sweep 1.
-template <int Dim>
-void GalerkinSolver<Dim>::compute_gradients() {
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::compute_gradients() {
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
-    GradientSweep<Dim> sweep(model_, fluid_.node[i]);
+    GradientSweep<Dim, Kernel> sweep(model_, fluid_.node[i]);
     sweep.gather(search_.fluid_near_fluid(i), fluid_.node);
     sweep.gather(search_.boundary_near_fluid(i), boundary_.node());
     const Gradients<Dim> gradients = sweep.finish();
@@ -147,8 +152,8 @@ void GalerkinSolver<Dim>::compute_gradients() {
 // CF (70) with the divergence at the new positions, and the density diffusion of the last sweep 2. A particle
 // with too few neighbours for a fit is spray: it carries no tension, and its pressure falls to the ambient
 // one in the time that sound takes across it, since its own divergence hardly feels it.
-template <int Dim>
-void GalerkinSolver<Dim>::advance_density(double dt) {
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::advance_density(double dt) {
   const double rho0 = model_.eos.rest_density();
   const double acoustic_time = model_.h / model_.eos.sound_speed();
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
@@ -158,9 +163,17 @@ void GalerkinSolver<Dim>::advance_density(double dt) {
   });
 }
 
+// V_k of the quadrature. Node::volume weighs the neighbours in the moments, CF (11), and is the same then; with
+// weights CF (12) that stays what it was at the start.
+template <int Dim, typename Kernel>
+double GalerkinSolver<Dim, Kernel>::quadrature_volume(std::size_t i) const {
+  const Node<Dim>& node = fluid_.node[i];
+  return weights_ == Weights::kernel ? fluid_.mass[i] / node.rho : node.volume;
+}
+
 // CF (60), (64). The volumes stay those of sweep 1, so that sum grad N = 0 holds for the forces too.
-template <int Dim>
-void GalerkinSolver<Dim>::compute_stress() {
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::compute_stress() {
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
     fluid_.pressure[i] = model_.eos.pressure(fluid_.node[i].rho);
     Mat<Dim> sigma = -fluid_.pressure[i] * Mat<Dim>::Identity();
@@ -170,13 +183,13 @@ void GalerkinSolver<Dim>::compute_stress() {
           fluid_.fit[i].floored ? Mat<Dim>::Zero() : viscous_stress<Dim>(model_.mu, fluid_.source[i].strain);
       sigma += fluid_.stress[i];
     }
-    set_source<Dim>(fluid_.node[i].volume, sigma, fluid_.fit[i], fluid_.source[i]);
+    set_source<Dim>(quadrature_volume(i), sigma, fluid_.fit[i], fluid_.source[i]);
   });
   search_.halo().refresh_sources(fluid_);
 }
 
-template <int Dim>
-void GalerkinSolver<Dim>::extrapolate_to_boundary() {
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::extrapolate_to_boundary() {
   const auto& active = search_.active_boundary();
   parallel_.for_each(active.size(), [&](std::size_t a) {
     extrapolate<Dim>(model_, fluid_, search_.fluid_near_active(a), active[a], boundary_);
@@ -184,10 +197,10 @@ void GalerkinSolver<Dim>::extrapolate_to_boundary() {
 }
 
 // Sweep 2.
-template <int Dim>
-void GalerkinSolver<Dim>::compute_forces() {
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::compute_forces() {
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
-    ForceSweep<Dim> sweep(model_, fluid_, i);
+    ForceSweep<Dim, Kernel> sweep(model_, fluid_, i);
     sweep.gather_fluid(search_.fluid_near_fluid(i));
     sweep.gather_boundary(search_.boundary_near_fluid(i), boundary_);
     Vec<Dim> force = sweep.force();
@@ -197,8 +210,8 @@ void GalerkinSolver<Dim>::compute_forces() {
   });
 }
 
-template <int Dim>
-void GalerkinSolver<Dim>::collect_wrenches() {
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::collect_wrenches() {
   const auto& active = search_.active_boundary();
   reaction_.resize(active.size());
   parallel_.for_each(active.size(), [&](std::size_t a) {
@@ -219,8 +232,8 @@ void GalerkinSolver<Dim>::collect_wrenches() {
 
 // Boundary particles of bodies always, of the walls on request, and those only once: not beyond a periodic
 // side.
-template <int Dim>
-bool GalerkinSolver<Dim>::is_measured(std::size_t w) const {
+template <int Dim, typename Kernel>
+bool GalerkinSolver<Dim, Kernel>::is_measured(std::size_t w) const {
   if (boundary_.body(w) > 0) return true;
   if (!measure_wall_force_) return false;
   const Vec<Dim>& x = boundary_.node()[w].x;
@@ -231,10 +244,11 @@ bool GalerkinSolver<Dim>::is_measured(std::size_t w) const {
 }
 
 // V = m/rho, for the next step: until here sweep 2 needed the volumes of sweep 1.
-template <int Dim>
-void GalerkinSolver<Dim>::update_volumes() {
-  parallel_.for_each(fluid_.size(),
-                     [&](std::size_t i) { fluid_.node[i].volume = fluid_.mass[i] / fluid_.node[i].rho; });
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::update_volumes() {
+  if (weights_ == Weights::kernel_and_volume)
+    parallel_.for_each(fluid_.size(),
+                       [&](std::size_t i) { fluid_.node[i].volume = fluid_.mass[i] / fluid_.node[i].rho; });
   for (const std::uint32_t w : search_.active_boundary()) {
     Node<Dim>& node = boundary_.node()[w];
     node.volume = boundary_.sampled_volume(w) * boundary_.dilation[w];
@@ -242,8 +256,8 @@ void GalerkinSolver<Dim>::update_volumes() {
 }
 
 // Power of the bodies on the fluid [W].
-template <int Dim>
-double GalerkinSolver<Dim>::boundary_power() const {
+template <int Dim, typename Kernel>
+double GalerkinSolver<Dim, Kernel>::boundary_power() const {
   double power = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     power -= wrench_[b + 1].force.dot(bodies_[b].velocity) +
@@ -251,21 +265,21 @@ double GalerkinSolver<Dim>::boundary_power() const {
   return power;
 }
 
-template <int Dim>
-std::span<const Wrench> GalerkinSolver<Dim>::wrenches() const {
+template <int Dim, typename Kernel>
+std::span<const Wrench> GalerkinSolver<Dim, Kernel>::wrenches() const {
   return std::span<const Wrench>(wrench_).subspan(1);
 }
 
-template <int Dim>
-double GalerkinSolver<Dim>::largest_step(double max_speed) const {
+template <int Dim, typename Kernel>
+double GalerkinSolver<Dim, Kernel>::largest_step(double max_speed) const {
   const double acoustic = model_.h / (model_.eos.sound_speed() + max_speed);
   const double viscous =
       model_.h * model_.h * model_.eos.rest_density() / (model_.artificial_viscosity + 1e-300);
   return courant_ * std::min(acoustic, viscous);
 }
 
-template <int Dim>
-Snapshot GalerkinSolver<Dim>::snapshot() const {
+template <int Dim, typename Kernel>
+Snapshot GalerkinSolver<Dim, Kernel>::snapshot() const {
   Snapshot s;
   s.position.resize(3 * fluid_.size());
   s.velocity.resize(3 * fluid_.size());
@@ -281,8 +295,8 @@ Snapshot GalerkinSolver<Dim>::snapshot() const {
   return s;
 }
 
-template <int Dim>
-Diagnostics GalerkinSolver<Dim>::diagnostics() const {
+template <int Dim, typename Kernel>
+Diagnostics GalerkinSolver<Dim, Kernel>::diagnostics() const {
   Diagnostics d;
   for (std::size_t i = 0; i < fluid_.size(); ++i) {
     const Node<Dim>& node = fluid_.node[i];
@@ -303,8 +317,5 @@ Diagnostics GalerkinSolver<Dim>::diagnostics() const {
   d.boundary_work = boundary_work_;
   return d;
 }
-
-template class GalerkinSolver<2>;
-template class GalerkinSolver<3>;
 
 }  // namespace sluice::fluid
