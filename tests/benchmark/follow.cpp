@@ -1,0 +1,118 @@
+#include "benchmark/follow.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "server/stop.hpp"
+
+namespace sluice::benchmark {
+namespace {
+
+class Escapes {
+ public:
+  explicit Escapes(const Scene& scene) : scene_(scene) {
+    std::fill_n(closed_, 6, true);
+    for (const int side : scene.domain().open()) closed_[side - X_MIN] = false;
+  }
+
+  // Counts particles that are behind a closed side and never were beyond an open one.
+  void follow(const fluid::Snapshot& s) {
+    left_.resize(s.density.size(), 0);
+    lost_.resize(s.density.size(), 0);
+    for (std::size_t i = 0; i < s.density.size(); ++i) {
+      for (int side = 0; side < 2 * static_cast<int>(scene_.dimension()); ++side) {
+        const double distance = beyond(&s.position[3 * i], side);
+        if (!closed_[side] && distance > 0) left_[i] = 1;
+        if (closed_[side] && !left_[i] && distance > scene_.spacing()) lost_[i] = 1;
+      }
+    }
+  }
+
+  [[nodiscard]] std::uint64_t lost() const {
+    return static_cast<std::uint64_t>(std::count(lost_.begin(), lost_.end(), 1));
+  }
+
+ private:
+  [[nodiscard]] double beyond(const double* x, int side) const {
+    const int axis = side / 2;
+    return side % 2 == 0 ? scene_.domain().min(axis) - x[axis] : x[axis] - scene_.domain().max(axis);
+  }
+
+  const Scene& scene_;
+  bool closed_[6];
+  std::vector<char> left_, lost_;  // per particle
+};
+
+// Rises of an energy above its least value so far.
+class Ledger {
+ public:
+  explicit Ledger(const validation::SceneRun& run) : run_(run) { follow(); }
+
+  void follow() {
+    const fluid::Diagnostics d = run_.solver().diagnostics();
+    const double energy = d.kinetic + d.potential + d.elastic - d.boundary_work;
+    least_ = std::min(least_, energy);
+    scale_ = std::max(scale_, d.kinetic + d.potential);
+    if (energy - least_ > rise_) rise_ = energy - least_, rise_at_ = run_.time();
+  }
+
+  [[nodiscard]] double share() const { return rise_ / scale_; }
+  [[nodiscard]] double when() const { return rise_at_; }
+
+ private:
+  const validation::SceneRun& run_;
+  double least_ = std::numeric_limits<double>::infinity(), scale_ = 0, rise_ = 0, rise_at_ = 0;
+};
+
+// Whether the state itself is sound, so that only a particle's place can have stopped the run.
+bool sound(const validation::SceneRun& run) {
+  const fluid::Diagnostics d = run.solver().diagnostics();
+  return std::isfinite(d.max_speed) && d.max_speed <= run.scene().liquid().sound_speed() &&
+         d.max_compression <= 0.5;
+}
+
+}  // namespace
+
+std::string Faults::text() const {
+  std::string all;
+  const auto add = [&](const std::string& part) { all += (all.empty() ? "" : "; ") + part; };
+  if (!stop.empty()) add(stop);
+  if (lost > 0) add(fmt::format("{} particles lost from t = {:.4g} s on", lost, lost_at));
+  if (energy_rise > kMostRise)
+    add(fmt::format("energy has risen by {:.2g} % at t = {:.4g} s", 100 * energy_rise, rise_at));
+  return all;
+}
+
+Faults follow(validation::SceneRun& run) {
+  constexpr int kInterval = 4;  // steps between looks at the particles, which move by a fraction of a spacing
+  Escapes escapes(run.scene());
+  Ledger ledger(run);
+  Faults faults;
+  const auto look = [&] {
+    escapes.follow(run.solver().snapshot());
+    if (faults.lost == 0 && escapes.lost() > 0) faults.lost_at = run.time();
+    faults.lost = escapes.lost();
+  };
+  try {
+    while (run.next_step()) {
+      ledger.follow();
+      if (++faults.steps % kInterval == 0) look();
+    }
+  } catch (const server::Stop& stop) {
+    if (!sound(run)) faults.stop = stop.what();
+  } catch (const std::runtime_error& error) {  // a body is lost
+    faults.stop = error.what();
+  }
+  look();
+  faults.energy_rise = ledger.share();
+  faults.rise_at = ledger.when();
+  faults.particles = run.masses().size();
+  faults.end = run.time();
+  return faults;
+}
+
+}  // namespace sluice::benchmark
