@@ -7,46 +7,12 @@
 #include <limits>
 #include <vector>
 
+#include "benchmark/escapes.hpp"
 #include "server/geometry.hpp"
 #include "server/stop.hpp"
 
 namespace sluice::benchmark {
 namespace {
-
-class Escapes {
- public:
-  explicit Escapes(const Scene& scene) : scene_(scene) {
-    std::fill_n(closed_, 6, true);
-    for (const int side : scene.domain().open()) closed_[side - X_MIN] = false;
-  }
-
-  // Counts particles that are behind a closed side and never were beyond an open one.
-  void follow(const fluid::Snapshot& s) {
-    left_.resize(s.density.size(), 0);
-    lost_.resize(s.density.size(), 0);
-    for (std::size_t i = 0; i < s.density.size(); ++i) {
-      for (int side = 0; side < 2 * static_cast<int>(scene_.dimension()); ++side) {
-        const double distance = beyond(&s.position[3 * i], side);
-        if (!closed_[side] && distance > 0) left_[i] = 1;
-        if (closed_[side] && !left_[i] && distance > scene_.spacing()) lost_[i] = 1;
-      }
-    }
-  }
-
-  [[nodiscard]] std::uint64_t lost() const {
-    return static_cast<std::uint64_t>(std::count(lost_.begin(), lost_.end(), 1));
-  }
-
- private:
-  [[nodiscard]] double beyond(const double* x, int side) const {
-    const int axis = side / 2;
-    return side % 2 == 0 ? scene_.domain().min(axis) - x[axis] : x[axis] - scene_.domain().max(axis);
-  }
-
-  const Scene& scene_;
-  bool closed_[6];
-  std::vector<char> left_, lost_;  // per particle
-};
 
 // "(0.1, 0.02, 0) m, 0.4 dx from x_min and 0.6 dx from gate": the particle under the highest pressure.
 std::string hottest(const validation::SceneRun& run) {
