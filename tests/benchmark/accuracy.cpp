@@ -51,12 +51,6 @@ CaseTable measure_all(const Case& what, const std::vector<Formulation>& formulat
   return table;
 }
 
-std::ofstream open(const std::string& path) {
-  std::ofstream file(path);
-  if (!file) throw protocol::InputError(path + ": cannot be written; name a file in an existing directory");
-  return file;
-}
-
 }  // namespace
 
 int accuracy(const AccuracyOptions& options) {
@@ -65,8 +59,8 @@ int accuracy(const AccuracyOptions& options) {
                                 ? std::vector{all_formulations().front()}
                                 : select(all_formulations(), options.formulations, "formulation");
   std::ofstream csv;
-  if (!options.csv.empty()) csv = open(options.csv);
-  if (!options.plot.empty()) open(options.plot);
+  if (!options.csv.empty()) csv = open_output(options.csv);
+  if (!options.plot.empty()) open_output(options.plot);
 
   std::vector<CaseTable> tables;
   for (const Case& what : cases) {

@@ -5,6 +5,7 @@
 
 #include "benchmark/accuracy.hpp"
 #include "benchmark/formulations.hpp"
+#include "benchmark/stability.hpp"
 #include "protocol/error.hpp"
 #include "validation/support/case.hpp"
 
@@ -40,20 +41,51 @@ CLI::App* add_accuracy(CLI::App& app, AccuracyOptions& options) {
   return command;
 }
 
+CLI::App* add_stability(CLI::App& app, StabilityOptions& options) {
+  CLI::App* command =
+      app.add_subcommand("stability", "What must not happen in any scene, and how near it is");
+  command->add_option("--case", options.checks, "Of: " + names(all_checks()))->type_name("NAME ...");
+  command->add_flag("--quick", options.quick, "Seconds instead of half an hour");
+  CLI::Option* scenes = command->add_option("--scenes", options.scenes, "Number of random scenes")
+                            ->check(CLI::PositiveNumber)
+                            ->type_name("N")
+                            ->capture_default_str();
+  command->add_option("--first-seed", options.first_seed, "Seed of the first; the others follow")
+      ->type_name("S")
+      ->capture_default_str();
+  command
+      ->add_option_function<std::uint64_t>(
+          "--seed",
+          [&options](std::uint64_t seed) {
+            options.first_seed = seed;
+            options.scenes = 1;
+          },
+          "The random scene of this seed alone")
+      ->excludes(scenes)
+      ->excludes("--first-seed")
+      ->type_name("S");
+  command->add_option("--write", options.write, "Write the random scenes to this directory")
+      ->type_name("DIR");
+  command->add_option("--csv", options.csv, "Write the tables to this file")->type_name("FILE");
+  return command;
+}
+
 int bench(int argc, char** argv) {
   CLI::App app{"What the solver's results are worth and what they cost."};
   app.name("sluice bench");
   app.require_subcommand(1);
   app.set_help_flag();
   app.set_help_all_flag("-h,--help", "Print this help message and exit");
-  AccuracyOptions options;
-  add_accuracy(app, options);
+  AccuracyOptions of_accuracy;
+  const CLI::App* measures_accuracy = add_accuracy(app, of_accuracy);
+  StabilityOptions of_stability;
+  add_stability(app, of_stability);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? protocol::kDone : protocol::kBadInput;
   }
-  return accuracy(options);
+  return measures_accuracy->parsed() ? accuracy(of_accuracy) : stability(of_stability);
 }
 
 }  // namespace

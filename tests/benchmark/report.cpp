@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "protocol/error.hpp"
+
 namespace sluice::benchmark {
 
 namespace {
@@ -32,29 +34,34 @@ std::string row_text(const CaseTable& table, const Measurement& row) {
   return text;
 }
 
-// A field of a CSV file.
-std::string quoted(std::string text) {
-  for (auto at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2))
-    text.insert(at, 1, '"');
-  return '"' + text + '"';
-}
-
 std::string csv_lines(const CaseTable& table, const Measurement& row) {
   const std::string run = fmt::format("{},{},{}", table.what.name, row.formulation, row.resolution);
-  if (!row.failure.empty()) return run + ",,,,,,,,,,,,," + quoted(row.failure) + "\n";
+  if (!row.failure.empty()) return run + ",,,,,,,,,,,,," + csv_field(row.failure) + "\n";
   const validation::Outcome& o = row.outcome;
   std::string text;
   for (const Figure& figure : o.figures) {
     const bool bounded = table.bounded(row) && !std::isnan(figure.bound);
     text += fmt::format("{},{},{},{:.6g},{},{:.4g},{:.6g},{:d},{},{},{:.6g},{},\n", run, o.particles, o.steps,
                         o.error, row.order ? fmt::format("{:.3f}", *row.order) : "", o.seconds, rate(o),
-                        row.on_front, quoted(figure.name), quoted(figure.unit), figure.value,
+                        row.on_front, csv_field(figure.name), csv_field(figure.unit), figure.value,
                         bounded ? fmt::format("{:g},{:d}", figure.bound, table.missed(row, figure)) : ",");
   }
   return text;
 }
 
 }  // namespace
+
+std::ofstream open_output(const std::string& path) {
+  std::ofstream file(path);
+  if (!file) throw protocol::InputError(path + ": cannot be written; name a file in an existing directory");
+  return file;
+}
+
+std::string csv_field(std::string text) {
+  for (auto at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2))
+    text.insert(at, 1, '"');
+  return '"' + text + '"';
+}
 
 std::string to_text(const CaseTable& table) {
   std::string text =

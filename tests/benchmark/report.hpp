@@ -1,11 +1,18 @@
 #pragma once
 
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include "benchmark/measurement.hpp"
 
 namespace sluice::benchmark {
+
+// Throws InputError when it cannot be written.
+std::ofstream open_output(const std::string& path);
+
+// Text as a field of a CSV file.
+std::string csv_field(std::string text);
 
 // The table of one case, for reading.
 std::string to_text(const CaseTable& table);

@@ -28,6 +28,27 @@ TEST(Bench, PrintsItsTableAndWritesItsFiles) {
   EXPECT_THAT(read_text(directory.path() / "a.png"), HasSubstr("PNG"));
 }
 
+TEST(Bench, ChecksStability) {
+  const TemporaryDirectory directory;
+  const Outcome outcome = run_program("sluice",
+                                      {"bench", "stability", "--case", "random_scenes", "kernel_sums",
+                                       "--seed", "56", "--write", ".", "--csv", "s.csv"},
+                                      directory.path());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("random_scenes: "), HasSubstr("seeds 56 to 56"), HasSubstr("Wendland C2")));
+  EXPECT_THAT(read_text(directory.path() / "s.csv"),
+              AllOf(HasSubstr("random_scenes,,\"scenes\",\"\",1,,,"), HasSubstr("kernel_sums,")));
+  EXPECT_EQ(run_program("sluice", {"check", "seed_56.scene"}, directory.path()).code, 0);
+}
+
+TEST(Bench, RefusesChecksThatDoNotExist) {
+  const TemporaryDirectory directory;
+  const Outcome outcome = run_program("sluice", {"bench", "stability", "--case", "rain"}, directory.path());
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("there is no case 'rain'"), HasSubstr("random_scenes")));
+}
+
 TEST(Bench, RefusesWhatDoesNotExist) {
   const TemporaryDirectory directory;
   const auto refusal = [&](const std::vector<std::string>& arguments) {

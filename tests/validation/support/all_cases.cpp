@@ -1,3 +1,4 @@
+#include "validation/channel_start_up/channel_start_up.hpp"
 #include "validation/dam_break/dam_break.hpp"
 #include "validation/drop_impact/drop_impact.hpp"
 #include "validation/elliptical_drop/elliptical_drop.hpp"
@@ -10,9 +11,10 @@
 namespace sluice::validation {
 
 const std::vector<Case>& all_cases() {
-  static const std::vector<Case> cases{hydrostatic_column(), standing_wave(),   viscous_standing_wave(),
-                                       rotating_patch(),     elliptical_drop(), taylor_green(),
-                                       jet_on_wall(),        dam_break(),       drop_impact()};
+  static const std::vector<Case> cases{hydrostatic_column(),  standing_wave(),    viscous_standing_wave(),
+                                       rotating_patch(),      elliptical_drop(),  taylor_green(),
+                                       poiseuille_start_up(), couette_start_up(), jet_on_wall(),
+                                       dam_break(),           drop_impact()};
   return cases;
 }
 

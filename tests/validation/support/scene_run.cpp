@@ -3,7 +3,6 @@
 #include <chrono>
 
 #include "clients/rigid/convert.hpp"
-#include "protocol/scene_check.hpp"
 #include "protocol/scene_file.hpp"
 #include "server/guard.hpp"
 
@@ -12,10 +11,6 @@ namespace sluice::validation {
 namespace {
 
 constexpr std::uint64_t kGuardInterval = 8;  // [steps], as in the server
-
-Scene load(const std::filesystem::path& scene, const std::vector<std::string>& overrides) {
-  return protocol::with_defaults(protocol::SceneFile::load(scene, overrides).scene());
-}
 
 server::Simulation simulate(const Scene& scene, int threads, Walls walls) {
   return server::make_simulation(scene, threads, [walls](fluid::Setup setup) {
@@ -46,7 +41,10 @@ std::vector<rigid::Wrench> to_rigid(std::span<const fluid::Wrench> wrenches) {
 
 SceneRun::SceneRun(const std::filesystem::path& scene, const std::vector<std::string>& overrides, int threads,
                    Walls walls)
-    : simulation_(simulate(load(scene, overrides), threads, walls)), masses_(initial_masses(simulation_)) {
+    : SceneRun(protocol::SceneFile::load(scene, overrides).scene(), threads, walls) {}
+
+SceneRun::SceneRun(const Scene& scene, int threads, Walls walls)
+    : simulation_(simulate(scene, threads, walls)), masses_(initial_masses(simulation_)) {
   if (simulation_.bodies.empty()) return;
   world_ = std::make_unique<rigid::World>(clients::to_world(simulation_.scene));
   world_->start(to_rigid(simulation_.initial_wrenches));

@@ -21,6 +21,8 @@ class SceneRun {
   // Overrides as for `sluice run --set`. Throws SceneError.
   explicit SceneRun(const std::filesystem::path& scene, const std::vector<std::string>& overrides = {},
                     int threads = 1, Walls walls = Walls::kNotMeasured);
+  // A scene that is not in a file. Precondition: protocol::check_fields finds nothing.
+  explicit SceneRun(const Scene& scene, int threads = 1, Walls walls = Walls::kNotMeasured);
 
   // Advances by one fluid step, or to the next output time; false when the run is over. Throws server::Stop
   // when the fluid has become unstable.
