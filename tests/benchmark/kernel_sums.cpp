@@ -29,11 +29,15 @@ StabilityTable kernel_sums(const StabilityOptions&) {
                   {"line |N|", "1/dx"},
                   {"plane |M-1|", ""},
                   {"plane |N|", "1/dx"},
-                  {"W'(0)", "W(0)/h"}},
+                  {"W'(0)", "W(0)/dx"}},
       .rows = {},
       .figures = {}};
-  for (const double smoothing : {1.0, 1.25, fluid::stable_smoothing(2), 1.75, 2.0})
+  for (const double smoothing : {1.0, 1.25, fluid::stable_smoothing(2), 1.75, 2.0}) {
     add<fluid::WendlandC2>(table, "Wendland C2", smoothing);
+    add<fluid::CubicSpline>(table, "cubic spline", smoothing);
+    add<fluid::TensorSpline>(table, "tensor spline", smoothing);
+    add<fluid::SincSquared>(table, "sinc squared", smoothing);
+  }
   return table;
 }
 

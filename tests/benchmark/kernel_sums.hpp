@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fluid/types.hpp"
+
 namespace sluice::benchmark {
 
 // How far a kernel is from the criteria of J. Perea and J. Cordero, PC (20)-(25), on a lattice of spacing dx:
@@ -13,51 +15,66 @@ struct KernelSums {
          line_N = 0;         // largest |M - 1| and |N| on a line, as printed, the weights normalised on it
   double plane_M = 0;        // largest |sum W dx^2 - 1| on the square lattice
   double plane_N = 0;        // largest |sum grad W dx^3| there
-  double slope_at_zero = 0;  // |W'(0)| h/W(0)
+  double slope_at_zero = 0;  // |W'(0)|/W(0)
 };
 
-// Of a kernel of the plane with the interface of fluid::WendlandC2<2>, in units of dx.
+namespace kernel_detail {
+
+constexpr double kStep =
+    1e-5;  // of the central differences [dx]; what a solver calls slope is not always the gradient
+
+template <typename Kernel>
+double slope(const Kernel& kernel, const fluid::Vec<2>& x, int axis) {
+  const fluid::Vec<2> step = kStep * fluid::Vec<2>::Unit(axis);
+  return (kernel.value(fluid::Vec<2>(x + step)) - kernel.value(fluid::Vec<2>(x - step))) / (2 * kStep);
+}
+
+// Of W along an axis; the line on which a sum of weights is one.
+template <typename Kernel>
+double integral(const Kernel& kernel) {
+  constexpr int kIntervals = 4000;  // over the support, midpoint rule
+  const double width = kernel.support() / kIntervals;
+  double sum = 0;
+  for (int k = 0; k < kIntervals; ++k) sum += 2 * width * kernel.value(fluid::Vec<2>((k + 0.5) * width, 0));
+  return sum;
+}
+
+}  // namespace kernel_detail
+
+// Of a kernel of the plane (fluid/kernel.hpp), in units of dx, looked at from 51 places between two lattice
+// points along each axis.
 template <typename Kernel>
 KernelSums kernel_sums_of(const Kernel& kernel) {
-  constexpr int kPlaces = 50;      // between two lattice points
-  constexpr int kIntegral = 4000;  // intervals over the support, midpoint rule
-  const auto weight = [&](double r) { return kernel.value(r * r); };
-  const auto slope_over_r = [&](double r2) { return -kernel.value_and_slope(r2).f; };
+  constexpr int kPlaces = 50;
   const int reach = static_cast<int>(std::ceil(kernel.support())) + 1;
-
-  double integral = 0;
-  for (int k = 0; k < kIntegral; ++k)
-    integral += 2 * weight(kernel.support() * (k + 0.5) / kIntegral) * kernel.support() / kIntegral;
-
+  const double line = kernel_detail::integral(kernel);
   KernelSums result;
   for (int a = 0; a <= kPlaces; ++a) {
-    const double x = 0.5 * a / kPlaces;
-    double M = 0, N = 0;
+    double line_M = 0, line_N = 0;
     for (int s = -reach; s <= reach; ++s) {
-      const double r = x - s;
-      if (std::abs(r) >= kernel.support()) continue;
-      M += weight(std::abs(r)) / integral;
-      N += slope_over_r(r * r) * r / integral;
+      const fluid::Vec<2> x(0.5 * a / kPlaces - s, 0);
+      line_M += kernel.value(x) / line;
+      line_N += kernel_detail::slope(kernel, x, 0) / line;
     }
-    result.line_M = std::max(result.line_M, std::abs(M - 1));
-    result.line_N = std::max(result.line_N, std::abs(N));
+    result.line_M = std::max(result.line_M, std::abs(line_M - 1));
+    result.line_N = std::max(result.line_N, std::abs(line_N));
     for (int b = 0; b <= a; ++b) {
-      const double y = 0.5 * b / kPlaces;
-      double sum = 0, sum_x = 0, sum_y = 0;
+      double M = 0;
+      fluid::Vec<2> N = fluid::Vec<2>::Zero();
       for (int s = -reach; s <= reach; ++s)
         for (int t = -reach; t <= reach; ++t) {
-          const double r2 = (x - s) * (x - s) + (y - t) * (y - t);
-          if (r2 >= kernel.support() * kernel.support()) continue;
-          sum += kernel.value(r2);
-          sum_x += slope_over_r(r2) * (x - s);
-          sum_y += slope_over_r(r2) * (y - t);
+          const fluid::Vec<2> x(0.5 * a / kPlaces - s, 0.5 * b / kPlaces - t);
+          M += kernel.value(x);
+          for (int axis = 0; axis < 2; ++axis) N[axis] += kernel_detail::slope(kernel, x, axis);
         }
-      result.plane_M = std::max(result.plane_M, std::abs(sum - 1));
-      result.plane_N = std::max(result.plane_N, std::hypot(sum_x, sum_y));
+      result.plane_M = std::max(result.plane_M, std::abs(M - 1));
+      result.plane_N = std::max(result.plane_N, N.norm());
     }
   }
-  const double near = 1e-6 * kernel.support();
-  result.slope_at_zero = std::abs(weight(near) - weight(0)) / near * kernel.support() / 2 / weight(0);
+  // One-sided: the central difference of an even function vanishes.
+  const double at_zero = kernel.value(fluid::Vec<2>(0, 0));
+  const double beside = kernel.value(fluid::Vec<2>(kernel_detail::kStep, 0));
+  result.slope_at_zero = std::abs(beside - at_zero) / kernel_detail::kStep / at_zero;
   return result;
 }
 

@@ -45,22 +45,20 @@ TEST(Readme, SaysWhatEveryCheckStates) {
   for (const StabilityCheck& check : all_checks()) EXPECT_THAT(text, HasSubstr("\n| `" + check.name + "` |"));
 }
 
-// The triangle of support 1 on a line of spacing 1 sums to one everywhere; its slope there jumps.
-struct Triangle {
-  struct ValueAndSlope {
-    double w, f;
-  };
-  [[nodiscard]] double support() const { return 1; }
-  [[nodiscard]] double value(double r2) const { return std::max(0.0, 1 - std::sqrt(r2)); }
-  [[nodiscard]] ValueAndSlope value_and_slope(double r2) const {
-    return {value(r2), r2 < 1 ? 1 / std::sqrt(r2 + 1e-30) : 0};
+// The tent of support 1 on each axis: on a lattice of spacing 1 it sums to one everywhere.
+struct Tent {
+  [[nodiscard]] double support() const { return std::sqrt(2.0); }
+  [[nodiscard]] double value(const fluid::Vec<2>& x) const {
+    return std::max(0.0, 1 - std::abs(x[0])) * std::max(0.0, 1 - std::abs(x[1]));
   }
 };
 
-TEST(KernelSums, AreThoseOfTheTriangle) {
-  const KernelSums sums = kernel_sums_of(Triangle{});
-  EXPECT_NEAR(sums.line_M, 0, 1e-12);
-  EXPECT_NEAR(sums.slope_at_zero, 0.5, 1e-5);  // W'(0) h/W(0) with h half of the support
+TEST(KernelSums, AreThoseOfTheTent) {
+  const KernelSums sums = kernel_sums_of(Tent{});
+  EXPECT_NEAR(sums.line_M, 0, 1e-5);
+  EXPECT_NEAR(sums.plane_M, 0, 1e-12);
+  EXPECT_NEAR(sums.plane_N, 0, 1e-9);
+  EXPECT_NEAR(sums.slope_at_zero, 1, 1e-5);
 }
 
 TEST(KernelSums, FallWithTheSmoothingLength) {
