@@ -99,7 +99,7 @@ void fill_formulation(Formulation& formulation, unsigned dimension, bool periodi
   if (!formulation.has_courant()) formulation.set_courant(0.4);
   if (formulation.kernel() == KERNEL_UNSPECIFIED) formulation.set_kernel(WENDLAND);
   if (formulation.weights() == WEIGHTS_UNSPECIFIED) formulation.set_weights(KERNEL_AND_VOLUME);
-  if (!formulation.has_tension_control()) formulation.set_tension_control(true);
+  if (!formulation.has_tension_control()) formulation.set_tension_control(false);
   if (!formulation.has_shifting()) formulation.set_shifting(periodic ? 6 : 0);
 }
 

@@ -12,7 +12,9 @@ const std::vector<Formulation>& all_formulations() {
       {"tensor", "tensor-product spline kernel CF (19)", {"formulation.kernel=TENSOR_SPLINE"}},
       {"sinc2", "sinc squared kernel PC (19)", {"formulation.kernel=SINC_SQUARED"}},
       {"w", "weights CF (12), kernel alone", {"formulation.weights=KERNEL_ALONE"}},
-      {"no_tension_control", "tension tears", {"formulation.tension_control=false"}},
+      {"tension_control",
+       "pressures under tension relative to the particle's own",
+       {"formulation.tension_control=true"}},
       {"delta0.05", "density diffusion 0.05", {"formulation.density_diffusion=0.05"}},
   };
   return formulations;

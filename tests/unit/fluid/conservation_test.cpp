@@ -88,7 +88,6 @@ void expect_free_patch_keeps_momentum(int dimension, double viscosity, int cells
   SCOPED_TRACE(testing::Message() << "dimension " << dimension << ", viscosity " << viscosity);
   Scene scene(dimension, 1.0 / cells, 0.0, 7.0);
   scene.setup.liquid.viscosity = viscosity;
-  scene.setup.formulation.tension_control = false;  // the one term that is not pairwise
   const Vector3d half(0.5, 0.5, dimension == 3 ? 0.5 : 0.0), drift(0.2, -0.1, dimension == 3 ? 0.3 : 0.0);
   const Vector3d rate = dimension == 3 ? Vector3d(0.3, -0.2, 1.0) : Vector3d(0, 0, 1);
   for (const Vector3d& x : fill(BoxShape{half}, {0.1, 0.2, 0}, 1.0 / cells, dimension))

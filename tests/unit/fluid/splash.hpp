@@ -12,7 +12,6 @@ class Splash {
     Setup& setup = scene_.setup;
     setup.liquid.viscosity = viscosity;
     setup.measure_wall_force = true;
-    setup.formulation.tension_control = false;  // the one term that is not pairwise
     setup.threads = threads;
     // Spacings are 0.1; the tank is two metres wide, in space one metre deep.
     scene_.add_tank({0, 0, 0}, dimension == 2 ? Eigen::Vector3d(2, 2, 0) : Eigen::Vector3d(2, 1, 2));
