@@ -50,6 +50,8 @@ class PublicationTest : public testing::Test {
   zmq::socket_t news_ = protocol::make_socket(context_, zmq::socket_type::sub);
 };
 
+// Frames that a watcher does not fetch in time are dropped, as the server's are: those that come must be
+// right and in order.
 TEST_F(PublicationTest, GivesAWatcherWhatTheServerGave) {
   auto replay = start();
   Connection connection(context_, protocol::Endpoint::parse(options_.endpoint), {});
@@ -57,7 +59,7 @@ TEST_F(PublicationTest, GivesAWatcherWhatTheServerGave) {
   EXPECT_EQ(welcome.header.welcome().publish_endpoint(), options_.endpoint + ".publish");
   EXPECT_EQ(welcome.hash_arrays(), run_.welcome().hash_arrays());
   subscribe();
-  std::uint64_t next = 0;
+  std::uint64_t next = 0, seen = 0;
   bool status = false;
   std::optional<End> end;
   while (!end) {
@@ -67,10 +69,17 @@ TEST_F(PublicationTest, GivesAWatcherWhatTheServerGave) {
     EXPECT_EQ(header.run_id(), "fake-run");
     EXPECT_EQ(received->identity, header.has_frame() ? "frame" : "status");
     status = status || header.has_status();
-    if (header.has_frame()) expect_same(received->message, run_.frame(next++));
+    if (header.has_frame()) {
+      const std::uint64_t index = header.frame().index();
+      ASSERT_GE(index, next);
+      ASSERT_LE(index, run_.frames);
+      expect_same(received->message, run_.frame(index));
+      next = index + 1;
+      ++seen;
+    }
     if (header.has_end()) end = header.end();
   }
-  EXPECT_EQ(next, run_.frames + 1);
+  EXPECT_GT(seen, run_.frames / 2);
   EXPECT_TRUE(status);
   EXPECT_EQ(end->reason(), End::FINISHED);
   EXPECT_EQ(end->detail(), "all steps done");
