@@ -13,6 +13,7 @@ Halo<Dim>::Halo(const Period& period, double width)
 
 template <int Dim>
 void Halo<Dim>::wrap(Particles<Dim>& fluid) const {
+  if (!is_used()) return;
   for (Node<Dim>& node : fluid.node)
     for (int a = 0; a < Dim; ++a)
       if (length_[a] > 0.0) node.x[a] -= length_[a] * std::floor((node.x[a] - lower_[a]) / length_[a]);
