@@ -55,6 +55,7 @@ class BoundaryParticles {
   // The surface as the particle sees it.
   [[nodiscard]] const Surface<Dim>& surface(std::size_t w) const { return surface_[w]; }
   [[nodiscard]] bool no_slip(std::size_t w) const { return no_slip_[static_cast<std::size_t>(body_[w])]; }
+  [[nodiscard]] bool sticks() const { return !sticking.empty(); }
   [[nodiscard]] std::int32_t body(std::size_t w) const { return body_[w]; }
   // Index into plates()[plate(w)].faces of a plate's particle; plate(w) is -1 for all others.
   [[nodiscard]] std::int32_t face(std::size_t w) const { return face_[w]; }
@@ -69,6 +70,8 @@ class BoundaryParticles {
   std::vector<double> pressure;  // [Pa]
   std::vector<Mat<Dim>> stress;  // viscous part [Pa]; empty without viscosity
   std::vector<double> dilation;  // wetness times volume of the fluid near over its first volume
+  // What a no-slip surface adds to node().v in the shear of a viscous fluid [m/s]; empty without.
+  std::vector<Vec<Dim>> sticking;
 
  private:
   void append(const Boundary& boundary, double rest_density);

@@ -17,10 +17,10 @@ inline constexpr double kLargestRatio = 2.0, kLargestNoSlipRatio = 6.0;
 // The velocity that boundary particle w has in the velocity gradients of the fluid: that of the fluid it
 // stands in for, the mirror image of the flow. Relative to the body, the component across the surface changes
 // sign, in proportion to the distances from it (J. Morris, P. Fox, Y. Zhu, J. Comput. Phys. 136, 1997, eq.
-// 26); the component along it continues, linearly in the directions along the surface, or, at a no-slip
-// surface, changes sign as well. With the body's own velocity instead, the divergence near a wall is about
-// half of the fluid's and its stress power is lost: a standing wave in a tank one wave long loses 2 % a
-// period at H/25.
+// 26); the component along it continues, linearly in the directions along the surface. At a no-slip surface
+// that component changes sign as well, but in the shear only (no_slip.hpp). With the body's own velocity
+// instead, the divergence near a wall is about half of the fluid's and its stress power is lost: a standing
+// wave in a tank one wave long loses 2 % a period at H/25.
 template <int Dim, typename Kernel>
 void mirror_velocity(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid,
                      std::span<const std::uint32_t> neighbors, std::size_t w,
@@ -33,17 +33,17 @@ void mirror_velocity(const Model<Dim, Kernel>& model, const Particles<Dim>& flui
     flow.add(model.kernel.value(x_fw), x_fw, fluid.node[f].v - body);
   }
   node.v = body;
+  if (boundary.sticks()) boundary.sticking[w].setZero();
   if (flow.empty()) return;
   const Surface<Dim>& surface = boundary.surface(w);
   const double distance = std::max(flow.centroid().dot(surface.normal) - surface.depth, 0.25 * model.spacing);
-  if (boundary.no_slip(w)) {
-    node.v -= std::min(surface.depth / distance, kLargestNoSlipRatio) * flow.mean();
-    return;
-  }
   const double ratio = std::min(surface.depth / distance, kLargestRatio);
   const Vec<Dim> along = flow.centroid() - surface.across * flow.centroid();
   const Vec<Dim> continued = flow.mean() - flow.slope(model.moment_floor) * along;
   node.v += continued - surface.across * (continued + ratio * flow.mean());
+  if (!boundary.sticks() || !boundary.no_slip(w)) return;
+  const Vec<Dim> stuck = body - std::min(surface.depth / distance, kLargestNoSlipRatio) * flow.mean();
+  boundary.sticking[w] = stuck - node.v;
 }
 
 }  // namespace sluice::fluid

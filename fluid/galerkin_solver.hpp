@@ -1,7 +1,9 @@
 #pragma once
 
+#include "fluid/body_step.hpp"
 #include "fluid/boundary.hpp"
 #include "fluid/force_sweep.hpp"
+#include "fluid/lagged_acceleration.hpp"
 #include "fluid/model.hpp"
 #include "fluid/neighbor_search.hpp"
 #include "fluid/parallel.hpp"
@@ -31,7 +33,7 @@ class GalerkinSolver final : public Solver {
   // The stages of a step, in their order.
   void kick(double dt);
   void drift(double dt);
-  void move_boundary(std::span<const Kinematics> bodies);
+  void move_boundary(double dt, std::span<const Kinematics> bodies);
   void mirror_velocities();
   void compute_gradients();
   void advance_density(double dt);
@@ -43,7 +45,7 @@ class GalerkinSolver final : public Solver {
   void update_volumes();
 
   [[nodiscard]] bool is_measured(std::size_t w) const;
-  [[nodiscard]] double boundary_power() const;
+  [[nodiscard]] double boundary_power(const std::vector<Wrench>& wrench) const;
 
   Model<Dim, Kernel> model_;
   Parallel parallel_;
@@ -54,12 +56,15 @@ class GalerkinSolver final : public Solver {
   FreeSurface<Dim> surface_;
   Shifting<Dim> shifting_;
   std::vector<Kinematics> bodies_;
-  std::vector<Reaction<Dim>> reaction_;  // on the active boundary particles
-  std::vector<Wrench> wrench_;           // walls, then the bodies
+  std::vector<LaggedAcceleration> lagged_;  // per body
+  std::vector<Reaction<Dim>> reaction_;     // on the active boundary particles
+  std::vector<Wrench> wrench_;              // walls, then the bodies
+  std::vector<Wrench> last_wrench_;         // of the step before
   bool measure_wall_force_;
   Weights weights_;
   bool tension_control_;
   double courant_;
+  double body_step_;  // [s]
   double boundary_work_ = 0;
 };
 

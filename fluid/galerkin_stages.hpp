@@ -10,6 +10,7 @@
 #include "fluid/boundary_velocity.hpp"
 #include "fluid/galerkin_solver.hpp"
 #include "fluid/gradient_sweep.hpp"
+#include "fluid/no_slip.hpp"
 #include "fluid/stress.hpp"
 #include "fluid/tension_control.hpp"
 
@@ -38,11 +39,20 @@ Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos) {
   fluid.acceleration.assign(n, Vec<Dim>::Zero());
   fluid.density_rate.assign(n, 0.0);
   fluid.pressure.assign(n, 0.0);
+  fluid.divergence.assign(n, 0.0);
   if (setup.formulation.shifting > 0.0) fluid.L.assign(n, Mat<Dim>::Zero());
   if (setup.liquid.viscosity > 0.0) fluid.stress.assign(n, Mat<Dim>::Zero());
   fluid.fit.resize(n);
   fluid.source.resize(n);
   return fluid;
+}
+
+template <int Dim, typename Kernel>
+std::vector<LaggedAcceleration> make_lagged(const Setup& setup, const Model<Dim, Kernel>& model) {
+  std::vector<LaggedAcceleration> lagged;
+  for (const Boundary& body : setup.bodies)
+    lagged.emplace_back(body.free_mass > 0.0, model.h / model.eos.sound_speed());
+  return lagged;
 }
 
 }  // namespace stages
@@ -57,15 +67,17 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       period_(setup.period),
       shifting_(setup.formulation.shifting),
       bodies_(setup.bodies.size()),
+      lagged_(stages::make_lagged(setup, model_)),
       wrench_(setup.bodies.size() + 1),
       measure_wall_force_(setup.measure_wall_force),
       weights_(setup.formulation.weights),
       tension_control_(setup.formulation.tension_control),
-      courant_(setup.formulation.courant) {}
+      courant_(setup.formulation.courant),
+      body_step_(largest_body_step(setup)) {}
 
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::start(std::span<const Kinematics> bodies) {
-  move_boundary(bodies);
+  move_boundary(0.0, bodies);
   search_.update(fluid_, boundary_, parallel_);
   mirror_velocities();
   // The boundary's density enters the gradients and needs the fluid's pressure: one sweep to fill it.
@@ -89,11 +101,11 @@ void GalerkinSolver<Dim, Kernel>::start(std::span<const Kinematics> bodies) {
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::step(double dt, std::span<const Kinematics> bodies) {
   assert(dt > 0.0);
-  const double power_before = boundary_power();
+  last_wrench_ = wrench_;
   kick(0.5 * dt);
   drift(dt);
   if (shifting_.is_used()) shifting_.apply(dt, fluid_, parallel_);
-  move_boundary(bodies);
+  move_boundary(dt, bodies);
   search_.update(fluid_, boundary_, parallel_);
   search_.halo().refresh_nodes(fluid_);
   mirror_velocities();
@@ -107,7 +119,7 @@ void GalerkinSolver<Dim, Kernel>::step(double dt, std::span<const Kinematics> bo
   if (shifting_.is_used()) shifting_.compute(model_, fluid_, boundary_, search_, surface_, parallel_);
   update_volumes();
   kick(0.5 * dt);
-  boundary_work_ += 0.5 * dt * (power_before + boundary_power());
+  boundary_work_ += 0.5 * dt * (boundary_power(last_wrench_) + boundary_power(wrench_));
 }
 
 template <int Dim, typename Kernel>
@@ -121,9 +133,10 @@ void GalerkinSolver<Dim, Kernel>::drift(double dt) {
 }
 
 template <int Dim, typename Kernel>
-void GalerkinSolver<Dim, Kernel>::move_boundary(std::span<const Kinematics> bodies) {
+void GalerkinSolver<Dim, Kernel>::move_boundary(double dt, std::span<const Kinematics> bodies) {
   bodies_.assign(bodies.begin(), bodies.end());
-  boundary_.move(bodies);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) lagged_[b].replace(bodies_[b], dt);
+  boundary_.move(bodies_);
 }
 
 template <int Dim, typename Kernel>
@@ -144,7 +157,11 @@ void GalerkinSolver<Dim, Kernel>::compute_gradients() {
     const Gradients<Dim> gradients = sweep.finish();
     fluid_.fit[i] = gradients.fit;
     fluid_.source[i].grad_rho = gradients.grad_rho;
+    fluid_.divergence[i] = gradients.L.trace();
     fluid_.source[i].strain = strain_rate<Dim>(gradients.L);
+    if (boundary_.sticks())
+      fluid_.source[i].strain +=
+          sticking_strain<Dim>(model_, fluid_, i, search_.boundary_near_fluid(i), boundary_);
     if (shifting_.is_used()) fluid_.L[i] = gradients.L;
   });
 }
@@ -158,13 +175,13 @@ void GalerkinSolver<Dim, Kernel>::advance_density(double dt) {
   const double acoustic_time = model_.h / model_.eos.sound_speed();
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
     double& rho = fluid_.node[i].rho;
-    rho += dt * (fluid_.density_rate[i] - rho * fluid_.source[i].strain.trace());
+    rho += dt * (fluid_.density_rate[i] - rho * fluid_.divergence[i]);
     if (fluid_.fit[i].floored) rho = rho0 + std::max(0.0, rho - rho0) / (1.0 + dt / acoustic_time);
   });
 }
 
-// V_k of the quadrature. Node::volume weighs the neighbours in the moments, CF (11), and is the same then; with
-// weights CF (12) that stays what it was at the start.
+// V_k of the quadrature. Node::volume weighs the neighbours in the moments, CF (11), and is the same then;
+// with weights CF (12) that stays what it was at the start.
 template <int Dim, typename Kernel>
 double GalerkinSolver<Dim, Kernel>::quadrature_volume(std::size_t i) const {
   const Node<Dim>& node = fluid_.node[i];
@@ -255,13 +272,14 @@ void GalerkinSolver<Dim, Kernel>::update_volumes() {
   }
 }
 
-// Power of the bodies on the fluid [W].
+// Power of the bodies on the fluid [W], from the wrenches at an end of the step and the velocities over it:
+// the body moves by dt v under the mean of the two, which is what its own kinetic energy sees.
 template <int Dim, typename Kernel>
-double GalerkinSolver<Dim, Kernel>::boundary_power() const {
+double GalerkinSolver<Dim, Kernel>::boundary_power(const std::vector<Wrench>& wrench) const {
   double power = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b)
-    power -= wrench_[b + 1].force.dot(bodies_[b].velocity) +
-             wrench_[b + 1].moment.dot(bodies_[b].angular_velocity);
+    power -=
+        wrench[b + 1].force.dot(bodies_[b].velocity) + wrench[b + 1].moment.dot(bodies_[b].angular_velocity);
   return power;
 }
 
@@ -275,7 +293,7 @@ double GalerkinSolver<Dim, Kernel>::largest_step(double max_speed) const {
   const double acoustic = model_.h / (model_.eos.sound_speed() + max_speed);
   const double viscous =
       model_.h * model_.h * model_.eos.rest_density() / (model_.artificial_viscosity + 1e-300);
-  return courant_ * std::min(acoustic, viscous);
+  return std::min(courant_ * std::min(acoustic, viscous), body_step_);
 }
 
 template <int Dim, typename Kernel>

@@ -37,9 +37,10 @@ struct Particles {
   std::vector<double> density_rate;    // by density diffusion [kg/(m^3 s)]
   std::vector<std::uint32_t> id;       // index in Setup::fluid
   // Of the present step:
-  std::vector<double> pressure;  // [Pa]
-  std::vector<Mat<Dim>> L;       // velocity gradient, L_ab = dv_a/dx_b [1/s]; empty without shifting
-  std::vector<Mat<Dim>> stress;  // sigma + p I, the viscous part [Pa]; empty without viscosity
+  std::vector<double> pressure;    // [Pa]
+  std::vector<double> divergence;  // of the velocity [1/s]
+  std::vector<Mat<Dim>> L;         // velocity gradient, L_ab = dv_a/dx_b [1/s]; empty without shifting
+  std::vector<Mat<Dim>> stress;    // sigma + p I, the viscous part [Pa]; empty without viscosity
   std::vector<Fit<Dim>> fit;
   std::vector<Source<Dim>> source;
 

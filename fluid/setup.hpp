@@ -54,7 +54,8 @@ struct Boundary {
   std::vector<double> volume;               // [m^3], [m^2] in 2D
   std::vector<Eigen::Vector3d> to_surface;  // from the particle to the nearest point of the surface [m]
   std::vector<Eigen::Vector3d> velocity;  // of a wall along itself [m/s]; empty: none. Bodies have kinematics
-  bool no_slip = false;                   // fluid at the surface has its velocity; else it slides
+  bool no_slip = false;                   // a viscous fluid has the surface's velocity there; else it slides
+  double free_mass = 0;  // of a body that answers to the fluid's force [kg], [kg/m] in 2D; 0: prescribed
   struct Face {
     Eigen::Vector3d point, normal;
   };

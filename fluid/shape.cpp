@@ -65,6 +65,23 @@ double thickness_of(const PolygonShape& polygon, int) {
   return smallest;
 }
 
+double volume_of(const BoxShape& box, int dimension) {
+  return (2.0 * box.half_size).head(dimension).prod();
+}
+double volume_of(const BallShape& ball, int dimension) {
+  const double disc = M_PI * ball.radius * ball.radius;
+  return dimension == 2 ? disc : 4.0 / 3.0 * disc * ball.radius;
+}
+double volume_of(const PolygonShape& polygon, int) {
+  double twice = 0;
+  for (std::size_t k = 0; k < polygon.vertices.size(); ++k) {
+    const Eigen::Vector2d& a = polygon.vertices[k];
+    const Eigen::Vector2d& b = polygon.vertices[(k + 1) % polygon.vertices.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return 0.5 * twice;
+}
+
 Bounds bounds_of(const BoxShape& box, int) {
   return {-box.half_size, box.half_size};
 }
@@ -91,6 +108,10 @@ Bounds bounds(const Shape& shape, int dimension) {
   Bounds b = std::visit([&](const auto& s) { return bounds_of(s, dimension); }, shape);
   if (dimension == 2) b.min.z() = b.max.z() = 0.0;
   return b;
+}
+
+double volume(const Shape& shape, int dimension) {
+  return std::visit([&](const auto& s) { return volume_of(s, dimension); }, shape);
 }
 
 double thickness(const Shape& shape, int dimension) {

@@ -27,6 +27,9 @@ struct Bounds {
 };
 Bounds bounds(const Shape& shape, int dimension);
 
+// Volume [m^3], area [m^2] in two dimensions.
+double volume(const Shape& shape, int dimension);
+
 // Smallest width of the shape over all directions [m].
 double thickness(const Shape& shape, int dimension);
 

@@ -63,6 +63,10 @@ fluid::Shape to_shape(const Body& body) {
   }
 }
 
+double mass(const Body& body, int dimension) {
+  return body.has_mass() ? body.mass() : body.density() * fluid::volume(to_shape(body), dimension);
+}
+
 fluid::Kinematics initial_kinematics(const Body& body, int dimension) {
   fluid::Kinematics k;
   k.position = to_vector(body.position());

@@ -19,6 +19,9 @@ Region to_region(const FluidRegion& region);
 // A body's shape about its centre of mass.
 fluid::Shape to_shape(const Body& body);
 
+// Given, or of a homogeneous body [kg]; per metre of depth in two dimensions.
+double mass(const Body& body, int dimension);
+
 // Pose of a body at time 0; the velocity of a free one.
 fluid::Kinematics initial_kinematics(const Body& body, int dimension);
 

@@ -87,6 +87,7 @@ fluid::Setup to_setup(const Scene& scene, int threads) {
   for (const Body& body : scene.body()) {
     setup.bodies.push_back(fluid::sample_body(to_shape(body), setup.spacing, support, setup.dimension));
     setup.bodies.back().no_slip = body.surface() == NO_SLIP;
+    if (!body.has_prescribed()) setup.bodies.back().free_mass = mass(body, setup.dimension);
   }
   return setup;
 }

@@ -59,6 +59,14 @@ TEST(Shape, DistancesAreDistances) {
   }
 }
 
+TEST(Shape, Volume) {
+  EXPECT_NEAR(volume(BoxShape{{1, 2, 3}}, 2), 8, 1e-12);
+  EXPECT_NEAR(volume(BoxShape{{1, 2, 3}}, 3), 48, 1e-12);
+  EXPECT_NEAR(volume(BallShape{2}, 2), 4 * M_PI, 1e-12);
+  EXPECT_NEAR(volume(BallShape{2}, 3), 32 * M_PI / 3, 1e-12);
+  EXPECT_NEAR(volume(PolygonShape{{{0, 0}, {3, 0}, {0, 4}}}, 2), 6, 1e-12);
+}
+
 TEST(Shape, Thickness) {
   EXPECT_DOUBLE_EQ(thickness(kBox, 3), 2.0);
   EXPECT_DOUBLE_EQ(thickness(BoxShape{{1.0, 2.0, 0.1}}, 3), 0.2);

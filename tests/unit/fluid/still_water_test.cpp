@@ -52,8 +52,8 @@ TEST(StillWater, AWrongPressureIsNotAtRest) {
   EXPECT_GT(start_acceleration(scene, 1.0, 6.0), 5e-3);
 }
 
-// `settling`: largest kinetic over potential energy while the surface of the first lattice settles; it falls with the
-// depth in particles.
+// `settling`: largest kinetic over potential energy while the surface of the first lattice settles; it falls
+// with the depth in particles.
 void expect_rest(const Scene& scene, const Vector3d& water, int steps, double settling) {
   const int up = scene.setup.dimension - 1;
   const auto solver = make_solver(scene.setup);
