@@ -16,7 +16,7 @@ BoundaryParticles<Dim>::BoundaryParticles(const Setup& setup) {
   acceleration_.assign(size(), Vec<Dim>::Zero());
   pressure.assign(size(), 0.0);
   dilation.assign(size(), 1.0);
-  if (setup.liquid.viscosity > 0.0) stress.assign(size(), Mat<Dim>::Zero());
+  if (setup.has_viscous_stress()) stress.assign(size(), Mat<Dim>::Zero());
 }
 
 template <int Dim>

@@ -27,8 +27,16 @@ struct Source {
   Vec<Dim> grad_rho = Vec<Dim>::Zero();  // [kg/m^4]
 };
 
+// What MLS with the full derivative leaves in addition (approximation.hpp).
+template <int Dim>
+struct SlopeSource {
+  Mat<Dim> sigma_V = Mat<Dim>::Zero();  // V sigma
+  double a = 0;                         // N_j = V_j W (a + b.x_ji)
+  Vec<Dim> b = Vec<Dim>::Zero();
+};
+
 // The state of the fluid, in the order of the last sort. Arrays of size() particles; node, pressure, stress,
-// fit and source go on with the images beyond periodic sides (halo.hpp).
+// fit, source and slope_source go on with the images beyond periodic sides (halo.hpp).
 template <int Dim>
 struct Particles {
   std::vector<double> mass;            // [kg]
@@ -42,6 +50,7 @@ struct Particles {
   std::vector<Mat<Dim>> stress;  // sigma + p I, the viscous part [Pa]; empty without viscosity
   std::vector<Fit<Dim>> fit;
   std::vector<Source<Dim>> source;
+  std::vector<SlopeSource<Dim>> slope_source;  // empty but with the full derivative
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
 };
