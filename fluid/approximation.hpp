@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "fluid/equation_of_state.hpp"
 #include "fluid/kernel.hpp"
 #include "fluid/moments.hpp"
 #include "fluid/particles.hpp"
@@ -27,6 +28,15 @@ struct ShapeFunction {
   Vec<Dim> b;
 };
 
+// Stress points of a particle, from it [m]: the middles of the quarters or eighths of its cube.
+template <int Dim>
+std::array<Vec<Dim>, Particles<Dim>::kPoints> stress_points(double spacing) {
+  std::array<Vec<Dim>, Particles<Dim>::kPoints> points;
+  for (std::size_t s = 0; s < points.size(); ++s)
+    for (int a = 0; a < Dim; ++a) points[s][a] = ((s >> a) % 2 == 1 ? 0.25 : -0.25) * spacing;
+  return points;
+}
+
 // A kernel with another operator than the default. Solvers take it in the place of a kernel.
 template <typename Base>
 struct WithFullDerivative : Base {
@@ -42,6 +52,10 @@ struct WithSph : Base {
 };
 template <typename Base>
 struct WithCorrectedSph : Base {
+  using Base::Base;
+};
+template <typename Base>
+struct WithStressPoints : Base {
   using Base::Base;
 };
 template <typename Base>
@@ -79,7 +93,7 @@ struct CubicMoments : SlopeMoments<Dim> {
 // Derivative of the local fit, the default: grad N_j = V_j W (g + G x_ji).
 template <int Dim>
 struct DiffuseMls {
-  static constexpr bool kIsDefault = true, kIsIsobaric = false, kHasSumOne = true;
+  static constexpr bool kIsDefault = true, kIsIsobaric = false, kHasSumOne = true, kHasPoints = false;
   struct Coefficients {};
 
   static ShapeFunction<Dim> shape_function(const Fit<Dim>& fit) { return {fit.a, fit.g}; }
@@ -91,6 +105,8 @@ struct DiffuseMls {
   // W of a boundary particle as a quadrature point; Model::boundary_G goes with it.
   static double lattice_weight(const ValueAndSlope& weight) { return weight.w; }
   static double lattice_G(double lattice_moment, double) { return 1.0 / lattice_moment; }
+  // How much farther than the support two particles may be to act on each other [m].
+  static double extra_reach(double) { return 0.0; }
 
   static Vec<Dim> flux(const Particles<Dim>& fluid, std::size_t k, const ValueAndSlope& weight,
                        const Vec<Dim>& x) {
@@ -104,7 +120,7 @@ struct DiffuseMls {
 // Not even of first order near a free surface, but pairwise antisymmetric.
 template <int Dim>
 struct Sph {
-  static constexpr bool kIsDefault = false, kIsIsobaric = false, kHasSumOne = false;
+  static constexpr bool kIsDefault = false, kIsIsobaric = false, kHasSumOne = false, kHasPoints = false;
   using Sums = SlopeMoments<Dim>;
   struct Coefficients {
     Vec<Dim> own = Vec<Dim>::Zero();
@@ -127,6 +143,7 @@ struct Sph {
   }
   static double lattice_weight(const ValueAndSlope& weight) { return weight.f; }
   static double lattice_G(double, double) { return 1.0; }
+  static double extra_reach(double) { return 0.0; }
   static Vec<Dim> flux(const Particles<Dim>& fluid, std::size_t k, const ValueAndSlope& weight,
                        const Vec<Dim>& x) {
     return weight.f * (fluid.source[k].S * x);
@@ -258,6 +275,52 @@ struct FullMls : Sph<Dim> {
   static double lattice_G(double, double lattice_slope) { return 1.0 / lattice_slope; }
 };
 
+// Quadrature with stress points instead of the particles, CF (46) and (54), fig. 4: 2^Dim of them in the cube
+// of edge dx around each particle, a quarter of dx from its centre along every axis, with equal shares of its
+// volume.
+//   f_i = -sum_k sum_s V_k/2^Dim sigma_s grad N_i(x_s),   grad N_i(x_s) = V_i W (g_s + G_s x_is).
+// They move with their particle, so that the cube keeps its shape; the paper moves them by (48) where the
+// flow distorts it. Density is interpolated to them, CF (49), its difference to the particle's being that of
+// the last step; the viscous stress is the particle's. Boundary particles stay quadrature points themselves.
+// Cost: both sweeps have 2^Dim times the kernels.
+template <int Dim>
+struct StressPoints : DiffuseMls<Dim> {
+  static constexpr bool kIsDefault = false, kHasPoints = true;
+  static constexpr std::size_t kPoints = Particles<Dim>::kPoints;
+  struct Point {
+    Vec<Dim> g = Vec<Dim>::Zero();
+    Mat<Dim> G = Mat<Dim>::Zero();
+    double difference = 0;  // of the density to the particle's [kg/m^3]
+  };
+  using Coefficients = std::array<Point, kPoints>;
+
+  static double extra_reach(double spacing) { return 0.25 * std::sqrt(static_cast<double>(Dim)) * spacing; }
+
+  static void set_source(const EquationOfState& eos, double volume, const Mat<Dim>& sigma,
+                         const Coefficients& points, Particles<Dim>& fluid, std::size_t i) {
+    const double share = volume / static_cast<double>(kPoints);
+    for (std::size_t s = 0; s < kPoints; ++s) {
+      const double p = eos.pressure(fluid.node[i].rho + points[s].difference);
+      const Mat<Dim> sigma_s = sigma + (fluid.pressure[i] - p) * Mat<Dim>::Identity();
+      fluid.point_source[kPoints * i + s] = {share * (sigma_s * points[s].g),
+                                             share * (sigma_s * points[s].G)};
+    }
+  }
+
+  // At x from particle k, which may be k itself: sum_s V_s sigma_s grad N_i(x_s)/V_i.
+  template <typename Model>
+  static Vec<Dim> point_flux(const Model& model, const Particles<Dim>& fluid, std::size_t k,
+                             const Vec<Dim>& x) {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (std::size_t s = 0; s < kPoints; ++s) {
+      const Vec<Dim> x_s = x - model.points[s];
+      const PointSource<Dim>& from = fluid.point_source[kPoints * k + s];
+      sum += model.kernel.value(x_s) * (from.s + from.S * x_s);
+    }
+    return sum;
+  }
+};
+
 // The operator of what stands for the kernel.
 template <int Dim, typename Kernel>
 struct OperatorFor {
@@ -282,6 +345,10 @@ struct OperatorFor<Dim, WithCorrectedSph<Base>> {
 template <int Dim, typename Base>
 struct OperatorFor<Dim, WithIsobaricSph<Base>> {
   using Type = IsobaricSph<Dim>;
+};
+template <int Dim, typename Base>
+struct OperatorFor<Dim, WithStressPoints<Base>> {
+  using Type = StressPoints<Dim>;
 };
 template <int Dim, typename Kernel>
 using Operator = typename OperatorFor<Dim, Kernel>::Type;

@@ -58,7 +58,10 @@ class ForceSweep {
  public:
   ForceSweep(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid, std::size_t i)
       : model_(model), fluid_(fluid), i_(i), node_(fluid.node[i]), source_(fluid.source[i]) {
-    internal_ = Rule::own_flux(source_, model.kernel.at_zero());
+    if constexpr (Rule::kHasPoints)
+      internal_ = Rule::point_flux(model, fluid, i, Vec<Dim>::Zero());
+    else
+      internal_ = Rule::own_flux(source_, model.kernel.at_zero());
   }
 
   void gather_fluid(std::span<const std::uint32_t> neighbors) {
@@ -89,7 +92,10 @@ class ForceSweep {
     const double r2 = x_ik.squaredNorm();
     const ValueAndSlope weight = model_.kernel.value_and_slope(x_ik);
     const double F = weight.f;
-    internal_ += Rule::flux(fluid_, index, weight, x_ik);
+    if constexpr (Rule::kHasPoints)
+      internal_ += Rule::point_flux(model_, fluid_, index, x_ik);
+    else
+      internal_ += Rule::flux(fluid_, index, weight, x_ik);
     if constexpr (Rule::kIsIsobaric)
       internal_ -= k.volume * F *
                    isobaric_pressure({fluid_.pressure[i_], node_.rho}, {fluid_.pressure[index], k.rho},
@@ -141,7 +147,10 @@ Reaction<Dim> reaction(const Model<Dim, Kernel>& model, const Particles<Dim>& fl
     const Vec<Dim> x_iw = fluid.node[i].x - node.x;
     const ValueAndSlope weight = Rule::weight(model.kernel, x_iw);
     const Vec<Dim> traction = boundary_traction<Dim>(model, boundary, w, fluid, i, weight, x_iw);
-    sum.force -= Rule::flux(fluid, i, {node.volume * weight.w, node.volume * weight.f}, -x_iw);
+    if constexpr (Rule::kHasPoints)
+      sum.force -= node.volume * Rule::point_flux(model, fluid, i, -x_iw);
+    else
+      sum.force -= Rule::flux(fluid, i, {node.volume * weight.w, node.volume * weight.f}, -x_iw);
     sum.force -= traction + guard_force<Dim>(model, x_iw);
     if (!boundary.stress.empty()) sum.couple -= widen<Dim>(x_iw).cross(widen<Dim>(traction));
   }

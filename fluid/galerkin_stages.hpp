@@ -15,6 +15,7 @@
 #include "fluid/lumped_mass.hpp"
 #include "fluid/operator_sweep.hpp"
 #include "fluid/stress.hpp"
+#include "fluid/stress_points.hpp"
 #include "fluid/symmetrized_force.hpp"
 #include "fluid/tension_control.hpp"
 
@@ -48,6 +49,8 @@ Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos) {
   fluid.fit.resize(n);
   fluid.source.resize(n);
   if (setup.formulation.approximation == Approximation::mls_full_derivative) fluid.slope_source.resize(n);
+  if (setup.formulation.quadrature == Quadrature::stress_points)
+    fluid.point_source.resize(Particles<Dim>::kPoints * n);
   return fluid;
 }
 
@@ -59,7 +62,8 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       parallel_(setup.threads),
       fluid_(stages::make_particles<Dim>(setup, model_.eos)),
       boundary_(setup),
-      search_(model_.kernel.support(), stages::kSkin * model_.kernel.support(), setup.period),
+      search_(model_.kernel.support() + model_.extra_reach, stages::kSkin * model_.kernel.support(),
+              setup.period),
       period_(setup.period),
       shifting_(setup.formulation.shifting),
       bodies_(setup.bodies.size()),
@@ -231,6 +235,8 @@ void GalerkinSolver<Dim, Kernel>::compute_stress() {
     }
     if constexpr (Rule::kIsDefault)
       set_source<Dim>(quadrature_volume(i), sigma, fluid_.fit[i], fluid_.source[i]);
+    else if constexpr (Rule::kHasPoints)
+      Rule::set_source(model_.eos, quadrature_volume(i), sigma, coefficients_[i], fluid_, i);
     else
       Rule::set_source(quadrature_volume(i), sigma, coefficients_[i], fluid_, i);
   });

@@ -5,9 +5,9 @@
 
 namespace sluice::fluid {
 
-// Sum of V value(x) over the undisturbed cubic lattice of spacing dx around one of its points.
-template <int Dim, typename Kernel, typename Value>
-double sum_on_lattice(const Kernel& kernel, double spacing, const Value& value) {
+// Sum of term(V, x) over the undisturbed cubic lattice of spacing dx around one of its points.
+template <int Dim, typename Kernel, typename Term>
+double sum_on_lattice(const Kernel& kernel, double spacing, const Term& term) {
   const int reach = static_cast<int>(kernel.support() / spacing) + 1;
   const double volume = Dim == 2 ? spacing * spacing : spacing * spacing * spacing;
   double sum = 0;
@@ -18,7 +18,7 @@ double sum_on_lattice(const Kernel& kernel, double spacing, const Value& value) 
         x[0] = a * spacing;
         x[1] = b * spacing;
         if constexpr (Dim == 3) x[2] = c * spacing;
-        sum += volume * value(x);
+        sum += term(volume, x);
       }
   return sum;
 }
@@ -26,7 +26,8 @@ double sum_on_lattice(const Kernel& kernel, double spacing, const Value& value) 
 // Sum of V W there [-]: near one.
 template <int Dim, typename Kernel>
 double lattice_sum(const Kernel& kernel, double spacing) {
-  return sum_on_lattice<Dim>(kernel, spacing, [&](const Vec<Dim>& x) { return kernel.value(x); });
+  return sum_on_lattice<Dim>(kernel, spacing,
+                             [&](double V, const Vec<Dim>& x) { return V * kernel.value(x); });
 }
 
 // Eigenvalue [m^2] of the centred second moment C there: the scale of the floor, and the inverse of the G
@@ -34,14 +35,15 @@ double lattice_sum(const Kernel& kernel, double spacing) {
 template <int Dim, typename Kernel>
 double lattice_moment(const Kernel& kernel, double spacing) {
   return sum_on_lattice<Dim>(kernel, spacing,
-                             [&](const Vec<Dim>& x) { return kernel.value(x) * x[0] * x[0]; });
+                             [&](double V, const Vec<Dim>& x) { return V * kernel.value(x) * x[0] * x[0]; });
 }
 
 // The same with F = -W'/r in the place of W [-]: near one.
 template <int Dim, typename Kernel>
 double lattice_slope(const Kernel& kernel, double spacing) {
-  return sum_on_lattice<Dim>(kernel, spacing,
-                             [&](const Vec<Dim>& x) { return kernel.value_and_slope(x).f * x[0] * x[0]; });
+  return sum_on_lattice<Dim>(kernel, spacing, [&](double V, const Vec<Dim>& x) {
+    return V * kernel.value_and_slope(x).f * x[0] * x[0];
+  });
 }
 
 }  // namespace sluice::fluid

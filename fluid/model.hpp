@@ -33,6 +33,8 @@ struct Model {
                         setup.liquid.sound_speed / (setup.spacing * setup.spacing)),
         first_volume(setup.fluid.volume),
         boundary_G(Operator<Dim, Kernel>::lattice_G(lattice_moment, lattice_slope)),
+        extra_reach(Operator<Dim, Kernel>::extra_reach(setup.spacing)),
+        points(stress_points<Dim>(setup.spacing)),
         isobaric_scale(setup.formulation.isobaric_scale) {}
 
   double spacing;  // dx [m]
@@ -53,7 +55,9 @@ struct Model {
   double guard_stiffness;       // m c0^2 / dx^2 [N/m]
   double first_volume;          // of every fluid particle [m^Dim]
   double boundary_G;            // G of boundary particles, the lattice's, times identity [1/m^2]
-  double isobaric_scale;        // delta of PC (15)
+  double extra_reach;           // beyond the support at which particles act on each other [m]
+  std::array<Vec<Dim>, Particles<Dim>::kPoints> points;  // stress points of a particle, from it [m]
+  double isobaric_scale;                                 // delta of PC (15)
 };
 
 }  // namespace sluice::fluid

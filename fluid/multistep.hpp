@@ -12,7 +12,8 @@ namespace sluice::fluid {
 // follow).
 template <typename Value>
 Value multistep_difference(const Value& a0, const Value& a1, const Value& a2) {
-  return 2.0 * a0 - 3.0 * a1 + a2;
+  const Value last = a0 - a1;
+  return 2.0 * last - (a1 - a2);
 }
 
 // (u' - u)/dt

@@ -68,7 +68,11 @@ class OperatorSweep {
 
 // Sweep 1 of any operator.
 template <int Dim, typename Kernel>
-using FirstSweep = std::conditional_t<std::is_same_v<Operator<Dim, Kernel>, DiffuseMls<Dim>>,
-                                      GradientSweep<Dim, Kernel>, OperatorSweep<Dim, Kernel>>;
+struct FirstSweepFor {
+  using Type = std::conditional_t<Operator<Dim, Kernel>::kIsDefault, GradientSweep<Dim, Kernel>,
+                                  OperatorSweep<Dim, Kernel>>;
+};
+template <int Dim, typename Kernel>
+using FirstSweep = typename FirstSweepFor<Dim, Kernel>::Type;
 
 }  // namespace sluice::fluid

@@ -35,8 +35,15 @@ struct SlopeSource {
   Vec<Dim> b = Vec<Dim>::Zero();
 };
 
+// V_s sigma_s g_s and V_s sigma_s G_s of a stress point (approximation.hpp).
+template <int Dim>
+struct PointSource {
+  Vec<Dim> s = Vec<Dim>::Zero();
+  Mat<Dim> S = Mat<Dim>::Zero();
+};
+
 // The state of the fluid, in the order of the last sort. Arrays of size() particles; node, pressure, stress,
-// fit, source and slope_source go on with the images beyond periodic sides (halo.hpp).
+// fit, source, slope_source and point_source go on with the images beyond periodic sides (halo.hpp).
 template <int Dim>
 struct Particles {
   std::vector<double> mass;            // [kg]
@@ -51,6 +58,9 @@ struct Particles {
   std::vector<Fit<Dim>> fit;
   std::vector<Source<Dim>> source;
   std::vector<SlopeSource<Dim>> slope_source;  // empty but with the full derivative
+  // Of the stress points, 2^Dim for each particle; empty without them.
+  static constexpr std::size_t kPoints = std::size_t{1} << Dim;
+  std::vector<PointSource<Dim>> point_source;
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
 };

@@ -35,6 +35,9 @@ enum class ViscousForce { stress, damped };
 
 enum class Integrator { kick_drift_kick, leap_frog, predictor_corrector, multistep };  // integrators.hpp
 
+// Where the stress is taken: at the particles, CF (43), or at points around them, CF (54).
+enum class Quadrature { nodal, stress_points };
+
 // What the force on a particle is divided by: its mass, CF (58), or the lumped mass of the weak form, CF
 // (56).
 enum class Mass { physical, lumped };
@@ -49,6 +52,7 @@ struct Formulation {
   ViscousForce viscous_force = ViscousForce::stress;
   Integrator integrator = Integrator::kick_drift_kick;
   double multistep_beta1 = 1, multistep_beta2 = 1;  // of PC (26)-(27)
+  Quadrature quadrature = Quadrature::nodal;
   Mass mass = Mass::physical;
   double interpolated_motion = 0;          // share of v-hat CF (75) in the velocity that moves the particles
   bool initial_parameters = false;         // the velocities given are those of the fluid, CF (99)

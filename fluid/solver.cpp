@@ -38,6 +38,10 @@ void check(const Setup& setup) {
           static_cast<double>(f.approximation), "the symmetrized force is built for moving least squares, 0");
   require(!f.tension_control || mls, "approximation", static_cast<double>(f.approximation),
           "tension control needs moving least squares, 0");
+  require(f.quadrature == Quadrature::nodal ||
+              (mls && wendland && f.internal_force == InternalForce::galerkin && !f.tension_control),
+          "quadrature", static_cast<double>(f.quadrature),
+          "stress points, 1, go with moving least squares, the Wendland kernel and the Galerkin force");
   const bool sum_one =
       f.approximation != Approximation::sph && f.approximation != Approximation::corrected_sph;
   const char* fitted = "it needs shape functions whose sum is one: moving least squares, 0, 1 or Shepard, 2";
@@ -75,6 +79,8 @@ using PlainSph = WithSph<WendlandC2<Dim>>;
 template <int Dim>
 using CorrectedSum = WithCorrectedSph<WendlandC2<Dim>>;
 template <int Dim>
+using PointQuadrature = WithStressPoints<WendlandC2<Dim>>;
+template <int Dim>
 using IsobaricSum = WithIsobaricSph<WendlandC2<Dim>>;
 
 std::unique_ptr<Solver> make_with_operator(const Setup& setup) {
@@ -89,7 +95,7 @@ std::unique_ptr<Solver> make_with_operator(const Setup& setup) {
     case Approximation::corrected_sph:
       return make<CorrectedSum>(setup);
     case Approximation::mls:
-      break;
+      if (setup.formulation.quadrature == Quadrature::stress_points) return make<PointQuadrature>(setup);
   }
   return make<WendlandC2>(setup);
 }

@@ -68,6 +68,13 @@ void check_combinations(const Scene& scene, FieldCheck& check) {
         "SYMMETRIZED is built for MLS, to compare with; SPH is symmetrized as it is");
   needs(f.internal_force() == ISOBARIC, f.approximation() == SPH, "internal_force",
         "ISOBARIC is a sum over kernel gradients; set approximation to SPH");
+  const bool galerkin = f.internal_force() == INTERNAL_FORCE_UNSPECIFIED || f.internal_force() == GALERKIN;
+  needs(f.quadrature() == STRESS_POINTS, is_mls(f) && wendland && galerkin, "quadrature",
+        "STRESS_POINTS is built for MLS with the kernel WENDLAND and the internal force GALERKIN; leave "
+        "approximation, kernel and internal_force out");
+  needs(f.quadrature() == STRESS_POINTS, !f.tension_control(), "quadrature",
+        "STRESS_POINTS has its pressures off the particles, which tension_control does not know; leave one "
+        "out");
   needs(f.has_isobaric_scale(), f.internal_force() == ISOBARIC, "isobaric_scale",
         "belongs to internal_force ISOBARIC; set that or leave this out");
   needs(f.viscous_force() == DAMPED, scene.liquid().viscosity() > 0, "viscous_force",

@@ -99,8 +99,8 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
 
 // Order from the differences between three step lengths.
 TEST_P(IntegratorOf, ConvergesWithTheStep) {
-  const auto coarse = sound_wave(GetParam(), 20), middle = sound_wave(GetParam(), 40),
-             fine = sound_wave(GetParam(), 80);
+  const auto coarse = sound_wave(GetParam(), 80), middle = sound_wave(GetParam(), 160),
+             fine = sound_wave(GetParam(), 320);
   const double order = std::log2(distance(coarse, middle) / distance(middle, fine));
   RecordProperty("order", std::to_string(order));
   std::printf("order %g\n", order);

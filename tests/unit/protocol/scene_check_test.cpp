@@ -93,8 +93,12 @@ INSTANTIATE_TEST_SUITE_P(
               ":4:27: formulation.isobaric_scale: belongs to internal_force ISOBARIC; set that or leave this "
               "out"},
         Fault{
-            "DampedInviscid", 4, "duration: 1 formulation { viscous_force: DAMPED }",
-            ":4:27: formulation.viscous_force: DAMPED without viscosity does nothing; set liquid.viscosity"},
+            "DampedInviscid", 5, "liquid { max_speed: 1 } formulation { viscous_force: DAMPED }",
+            ":5:39: formulation.viscous_force: DAMPED without viscosity does nothing; set liquid.viscosity"},
+        Fault{
+            "SphPoints", 4, "duration: 1 formulation { approximation: SPH quadrature: STRESS_POINTS }",
+            ":4:46: formulation.quadrature: STRESS_POINTS is built for MLS with the kernel WENDLAND and the "
+            "internal force GALERKIN; leave approximation, kernel and internal_force out"},
         Fault{"Beta", 4, "duration: 1 formulation { multistep_beta2: 1.1 }",
               ":4:27: formulation.multistep_beta2: belongs to integrator MULTISTEP; set that or leave this "
               "out"},

@@ -57,6 +57,7 @@ TEST(Setup, TakesOverTheChoicesOfTheFormulation) {
             fluid::Approximation::mls_full_derivative);
   EXPECT_EQ(formulation("approximation: CORRECTED_SPH").approximation, fluid::Approximation::corrected_sph);
   EXPECT_EQ(formulation("internal_force: SYMMETRIZED").internal_force, fluid::InternalForce::symmetrized);
+  EXPECT_EQ(formulation("quadrature: STRESS_POINTS").quadrature, fluid::Quadrature::stress_points);
   EXPECT_EQ(formulation("integrator: PREDICTOR_CORRECTOR").integrator,
             fluid::Integrator::predictor_corrector);
 }
