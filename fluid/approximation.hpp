@@ -291,6 +291,7 @@ struct StressPoints : DiffuseMls<Dim> {
     Vec<Dim> g = Vec<Dim>::Zero();
     Mat<Dim> G = Mat<Dim>::Zero();
     double difference = 0;  // of the density to the particle's [kg/m^3]
+    bool floored = false;
   };
   using Coefficients = std::array<Point, kPoints>;
 
@@ -301,7 +302,9 @@ struct StressPoints : DiffuseMls<Dim> {
     const double share = volume / static_cast<double>(kPoints);
     for (std::size_t s = 0; s < kPoints; ++s) {
       const double p = eos.pressure(fluid.node[i].rho + points[s].difference);
-      const Mat<Dim> sigma_s = sigma + (fluid.pressure[i] - p) * Mat<Dim>::Identity();
+      // As in spray, a shear stress would exert a moment where G is not the exact inverse.
+      Mat<Dim> sigma_s = -p * Mat<Dim>::Identity();
+      if (!points[s].floored) sigma_s += sigma + fluid.pressure[i] * Mat<Dim>::Identity();
       fluid.point_source[kPoints * i + s] = {share * (sigma_s * points[s].g),
                                              share * (sigma_s * points[s].G)};
     }

@@ -13,7 +13,7 @@ template <int Dim>
 struct History {
   std::vector<Vec<Dim>> velocity;       // [m/s]
   std::vector<Vec<Dim>> way;            // moved since [m]
-  std::vector<double> density;          // [kg/m^3]
+  std::vector<double> density;          // change of it since, reversed [kg/m^3]
   std::vector<Vec<Dim>> acceleration1;  // one step ago [m/s^2]
   std::vector<Vec<Dim>> acceleration2;  // two steps ago
 };

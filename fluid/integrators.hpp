@@ -60,6 +60,9 @@ void GalerkinSolver<Dim, Kernel>::predictor_corrector(double dt, std::span<const
     history_.way[fluid_.id[i]] = -fluid_.node[i].x;
   });
   advance_density(0.5 * dt);
+  parallel_.for_each(fluid_.size(),
+                     [&](std::size_t i) { history_.density[fluid_.id[i]] -= fluid_.node[i].rho; });
+  update_volumes();
   drift(0.5 * dt);
   parallel_.for_each(fluid_.size(), [&](std::size_t i) { history_.way[fluid_.id[i]] += fluid_.node[i].x; });
   kick(0.5 * dt);
@@ -69,12 +72,15 @@ void GalerkinSolver<Dim, Kernel>::predictor_corrector(double dt, std::span<const
   update_volumes();
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
     fluid_.node[i].v = history_.velocity[fluid_.id[i]] + 0.5 * dt * fluid_.acceleration[i];
-    fluid_.node[i].rho = history_.density[fluid_.id[i]];
   });
   search_.halo().refresh_nodes(fluid_);
   mirror_velocities();
   compute_gradients();
   advance_density(dt);
+  // What was added belongs to the density at the start, except in spray, which has been set.
+  parallel_.for_each(fluid_.size(), [&](std::size_t i) {
+    if (!fluid_.fit[i].floored) fluid_.node[i].rho += history_.density[fluid_.id[i]];
+  });
   update_volumes();
   drift(dt);
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
@@ -146,10 +152,10 @@ void GalerkinSolver<Dim, Kernel>::find_initial_parameters() {
     parallel_.for_each(given.size(), [&](std::size_t i) { fluid_.node[i].v += given[i] - interpolated_[i]; });
   }
   std::ostringstream text;
-  text
-      << "fluid setup: initial_parameters: the interpolated velocity still misses the given one by " << error
-      << " m/s after " << kMostSweeps << " sweeps; it must come within " << kTolerance * scale
-      << " m/s. Velocities that jump between particles have no such parameters: leave initial_parameters out";
+  text << "fluid setup: initial_parameters: the interpolated velocity still misses the given one by " << error
+       << " m/s after " << kMostSweeps << " sweeps; it must come within " << kTolerance * scale
+       << " m/s. Velocities that jump between particles need parameters far larger than themselves: leave "
+          "initial_parameters out";
   throw std::invalid_argument(text.str());
 }
 

@@ -39,7 +39,7 @@ class StressPointSweep {
       const Fit<Dim> f = fit(point_[s].moments, model_.moment_floor);
       const bool spray = f.floored || result.fit.floored;
       const double difference = spray ? 0.0 : f.a * point_[s].rho + f.g.dot(point_[s].rho_x);
-      result.coefficients[s] = {f.g, f.G, difference};
+      result.coefficients[s] = {f.g, f.G, difference, f.floored};
     }
     return result;
   }

@@ -97,14 +97,14 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
   return std::sqrt(sum);
 }
 
-// Order from the differences between three step lengths.
+// Order from the differences between three step lengths. First order is what the volumes and the divergence
+// of the end of the step leave; only the predictor - corrector has all in the middle.
 TEST_P(IntegratorOf, ConvergesWithTheStep) {
   const auto coarse = sound_wave(GetParam(), 80), middle = sound_wave(GetParam(), 160),
              fine = sound_wave(GetParam(), 320);
   const double order = std::log2(distance(coarse, middle) / distance(middle, fine));
   RecordProperty("order", std::to_string(order));
-  std::printf("order %g\n", order);
-  EXPECT_GT(order, 0.9);
+  EXPECT_GT(order, GetParam() == Integrator::predictor_corrector ? 1.8 : 0.9);
 }
 
 std::string name_of(const testing::TestParamInfo<Integrator>& test) {
