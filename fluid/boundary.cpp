@@ -16,7 +16,7 @@ BoundaryParticles<Dim>::BoundaryParticles(const Setup& setup) {
   acceleration_.assign(size(), Vec<Dim>::Zero());
   pressure.assign(size(), 0.0);
   dilation.assign(size(), 1.0);
-  if (setup.liquid.viscosity <= 0.0) return;
+  if (!setup.has_viscous_stress()) return;
   stress.assign(size(), Mat<Dim>::Zero());
   if (std::find(no_slip_.begin(), no_slip_.end(), true) != no_slip_.end())
     sticking.assign(size(), Vec<Dim>::Zero());

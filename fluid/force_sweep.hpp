@@ -3,6 +3,7 @@
 #include <span>
 
 #include "fluid/boundary.hpp"
+#include "fluid/isobaric.hpp"
 #include "fluid/model.hpp"
 #include "fluid/particles.hpp"
 
@@ -10,11 +11,19 @@ namespace sluice::fluid {
 
 // Force of boundary particle w, as a quadrature point with g = 0 and the lattice's G, on fluid particle i:
 //   -V_i V_w W sigma_w G x_iw   (README.md, "Boundary particles")
+// with F in the place of W for other operators than the default, which have it there.
 template <int Dim, typename Kernel>
 Vec<Dim> boundary_traction(const Model<Dim, Kernel>& model, const BoundaryParticles<Dim>& boundary,
-                           std::size_t w, double volume_i, double W, const Vec<Dim>& x_iw) {
-  const double scale = volume_i * boundary.sampled_volume(w) * W * model.boundary_G;
-  Vec<Dim> force = scale * boundary.pressure[w] * x_iw;
+                           std::size_t w, const Particles<Dim>& fluid, std::size_t i,
+                           const ValueAndSlope& weight, const Vec<Dim>& x_iw) {
+  using Rule = Operator<Dim, Kernel>;
+  const double scale =
+      fluid.node[i].volume * boundary.sampled_volume(w) * Rule::lattice_weight(weight) * model.boundary_G;
+  double pressure = boundary.pressure[w];
+  if constexpr (Rule::kIsIsobaric)
+    pressure = isobaric_pressure({fluid.pressure[i], fluid.node[i].rho},
+                                 {boundary.pressure[w], boundary.node()[w].rho}, model.isobaric_scale);
+  Vec<Dim> force = scale * pressure * x_iw;
   if (!boundary.stress.empty()) force -= scale * (boundary.stress[w] * x_iw);
   return force;
 }
@@ -48,19 +57,23 @@ template <int Dim, typename Kernel = WendlandC2<Dim>>
 class ForceSweep {
  public:
   ForceSweep(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid, std::size_t i)
-      : model_(model), fluid_(fluid), node_(fluid.node[i]), source_(fluid.source[i]) {
-    internal_ = model.kernel.at_zero() * source_.s;
+      : model_(model), fluid_(fluid), i_(i), node_(fluid.node[i]), source_(fluid.source[i]) {
+    if constexpr (Rule::kHasPoints)
+      internal_ = Rule::point_flux(model, fluid, i, Vec<Dim>::Zero());
+    else
+      internal_ = Rule::own_flux(source_, model.kernel.at_zero());
   }
 
   void gather_fluid(std::span<const std::uint32_t> neighbors) {
-    for (const std::uint32_t k : neighbors) add_fluid(fluid_.node[k], fluid_.source[k]);
+    for (const std::uint32_t k : neighbors) add_fluid(k);
   }
 
   void gather_boundary(std::span<const std::uint32_t> neighbors, const BoundaryParticles<Dim>& boundary) {
     for (const std::uint32_t w : neighbors) {
       const Vec<Dim> x_iw = node_.x - boundary.node()[w].x;
-      const double W = model_.kernel.value(x_iw);
-      traction_ += boundary_traction(model_, boundary, w, node_.volume, W, x_iw) + guard_force(model_, x_iw);
+      const ValueAndSlope weight = Rule::weight(model_.kernel, x_iw);
+      traction_ +=
+          boundary_traction(model_, boundary, w, fluid_, i_, weight, x_iw) + guard_force(model_, x_iw);
     }
   }
 
@@ -70,11 +83,24 @@ class ForceSweep {
   [[nodiscard]] double density_rate() const { return model_.density_diffusion * diffusion_; }
 
  private:
-  void add_fluid(const Node<Dim>& k, const Source<Dim>& from) {
+  using Rule = Operator<Dim, Kernel>;
+
+  void add_fluid(std::size_t index) {
+    const Node<Dim>& k = fluid_.node[index];
+    const Source<Dim>& from = fluid_.source[index];
     const Vec<Dim> x_ik = node_.x - k.x;
     const double r2 = x_ik.squaredNorm();
-    const auto [W, F] = model_.kernel.value_and_slope(x_ik);
-    internal_ += W * (from.s + from.S * x_ik);
+    const ValueAndSlope weight = model_.kernel.value_and_slope(x_ik);
+    const double F = weight.f;
+    if constexpr (Rule::kHasPoints)
+      internal_ += Rule::point_flux(model_, fluid_, index, x_ik);
+    else
+      internal_ += Rule::flux(fluid_, index, weight, x_ik);
+    if constexpr (Rule::kIsIsobaric)
+      internal_ -= k.volume * F *
+                   isobaric_pressure({fluid_.pressure[i_], node_.rho}, {fluid_.pressure[index], k.rho},
+                                     model_.isobaric_scale) *
+                   x_ik;
 
     // Artificial viscosity on what a linear velocity field does not explain (README.md, "Dissipation"):
     //   alpha h c0 rho0 V_i V_k [v_ki . x_ki - x_ki . (d_i + d_k)/2 x_ki] / r^2 F x_ki
@@ -90,6 +116,7 @@ class ForceSweep {
 
   const Model<Dim, Kernel>& model_;
   const Particles<Dim>& fluid_;
+  std::size_t i_;
   const Node<Dim>& node_;
   const Source<Dim>& source_;
   Vec<Dim> internal_ = Vec<Dim>::Zero();
@@ -113,13 +140,17 @@ template <int Dim, typename Kernel>
 Reaction<Dim> reaction(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid,
                        std::span<const std::uint32_t> neighbors, std::size_t w,
                        const BoundaryParticles<Dim>& boundary) {
+  using Rule = Operator<Dim, Kernel>;
   const Node<Dim>& node = boundary.node()[w];
   Reaction<Dim> sum;
   for (const std::uint32_t i : neighbors) {
     const Vec<Dim> x_iw = fluid.node[i].x - node.x;
-    const double W = model.kernel.value(x_iw);
-    const Vec<Dim> traction = boundary_traction<Dim>(model, boundary, w, fluid.node[i].volume, W, x_iw);
-    sum.force -= node.volume * W * (fluid.source[i].s - fluid.source[i].S * x_iw);
+    const ValueAndSlope weight = Rule::weight(model.kernel, x_iw);
+    const Vec<Dim> traction = boundary_traction<Dim>(model, boundary, w, fluid, i, weight, x_iw);
+    if constexpr (Rule::kHasPoints)
+      sum.force -= node.volume * Rule::point_flux(model, fluid, i, -x_iw);
+    else
+      sum.force -= Rule::flux(fluid, i, {node.volume * weight.w, node.volume * weight.f}, -x_iw);
     sum.force -= traction + guard_force<Dim>(model, x_iw);
     if (!boundary.stress.empty()) sum.couple -= widen<Dim>(x_iw).cross(widen<Dim>(traction));
   }

@@ -3,6 +3,7 @@
 #include "fluid/body_step.hpp"
 #include "fluid/boundary.hpp"
 #include "fluid/force_sweep.hpp"
+#include "fluid/history.hpp"
 #include "fluid/lagged_acceleration.hpp"
 #include "fluid/model.hpp"
 #include "fluid/neighbor_search.hpp"
@@ -30,6 +31,21 @@ class GalerkinSolver final : public Solver {
   [[nodiscard]] Diagnostics diagnostics() const override;
 
  private:
+  // The integrators; all but the first in integrators.hpp.
+  void kick_drift_kick(double dt, std::span<const Kinematics> bodies);
+  void leap_frog(double dt, std::span<const Kinematics> bodies);
+  void predictor_corrector(double dt, std::span<const Kinematics> bodies);
+  void multistep(double dt, std::span<const Kinematics> bodies);
+  void start_history();
+  void find_initial_parameters();
+  void interpolate_velocities();
+  // drift, and what follows from the new positions but the gradients
+  void move(double dt, std::span<const Kinematics> bodies);
+  void place(double dt, std::span<const Kinematics> bodies);
+  // From the density on.
+  void evaluate_forces();
+  void evaluate();
+
   // The stages of a step, in their order.
   void kick(double dt);
   void drift(double dt);
@@ -44,8 +60,14 @@ class GalerkinSolver final : public Solver {
   void collect_wrenches();
   void update_volumes();
 
+  [[nodiscard]] Vec<Dim> further_force(std::size_t i) const;
+  [[nodiscard]] double inertia(std::size_t i) const;
+
   [[nodiscard]] bool is_measured(std::size_t w) const;
   [[nodiscard]] double boundary_power(const std::vector<Wrench>& wrench) const;
+
+  // What sweep 1 leaves for the sources; empty for the default operator.
+  std::vector<typename Operator<Dim, Kernel>::Coefficients> coefficients_;
 
   Model<Dim, Kernel> model_;
   Parallel parallel_;
@@ -62,7 +84,13 @@ class GalerkinSolver final : public Solver {
   std::vector<Wrench> last_wrench_;         // of the step before
   bool measure_wall_force_;
   Weights weights_;
-  bool tension_control_;
+  bool tension_control_, is_symmetrized_, is_damped_, has_lumped_mass_;
+  Integrator integrator_;
+  double multistep_beta1_, multistep_beta2_;
+  History<Dim> history_;
+  double interpolated_motion_;
+  bool initial_parameters_;
+  std::vector<Vec<Dim>> interpolated_;  // v-hat [m/s]; empty where it is not used
   double courant_;
   double body_step_;  // [s]
   double boundary_work_ = 0;

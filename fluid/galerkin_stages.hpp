@@ -8,10 +8,17 @@
 
 #include "fluid/boundary_sweep.hpp"
 #include "fluid/boundary_velocity.hpp"
+#include "fluid/damped_viscosity.hpp"
+#include "fluid/galerkin_results.hpp"
 #include "fluid/galerkin_solver.hpp"
 #include "fluid/gradient_sweep.hpp"
+#include "fluid/integrators.hpp"
+#include "fluid/lumped_mass.hpp"
 #include "fluid/no_slip.hpp"
+#include "fluid/operator_sweep.hpp"
 #include "fluid/stress.hpp"
+#include "fluid/stress_points.hpp"
+#include "fluid/symmetrized_force.hpp"
 #include "fluid/tension_control.hpp"
 
 namespace sluice::fluid {
@@ -41,9 +48,12 @@ Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos) {
   fluid.pressure.assign(n, 0.0);
   fluid.divergence.assign(n, 0.0);
   if (setup.formulation.shifting > 0.0) fluid.L.assign(n, Mat<Dim>::Zero());
-  if (setup.liquid.viscosity > 0.0) fluid.stress.assign(n, Mat<Dim>::Zero());
+  if (setup.has_viscous_stress()) fluid.stress.assign(n, Mat<Dim>::Zero());
   fluid.fit.resize(n);
   fluid.source.resize(n);
+  if (setup.formulation.approximation == Approximation::mls_full_derivative) fluid.slope_source.resize(n);
+  if (setup.formulation.quadrature == Quadrature::stress_points)
+    fluid.point_source.resize(Particles<Dim>::kPoints * n);
   return fluid;
 }
 
@@ -63,7 +73,8 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       parallel_(setup.threads),
       fluid_(stages::make_particles<Dim>(setup, model_.eos)),
       boundary_(setup),
-      search_(model_.kernel.support(), stages::kSkin * model_.kernel.support(), setup.period),
+      search_(model_.kernel.support() + model_.extra_reach, stages::kSkin * model_.kernel.support(),
+              setup.period),
       period_(setup.period),
       shifting_(setup.formulation.shifting),
       bodies_(setup.bodies.size()),
@@ -72,6 +83,14 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       measure_wall_force_(setup.measure_wall_force),
       weights_(setup.formulation.weights),
       tension_control_(setup.formulation.tension_control),
+      is_symmetrized_(setup.formulation.internal_force == InternalForce::symmetrized),
+      is_damped_(setup.formulation.viscous_force == ViscousForce::damped),
+      has_lumped_mass_(setup.formulation.mass == Mass::lumped),
+      integrator_(setup.formulation.integrator),
+      multistep_beta1_(setup.formulation.multistep_beta1),
+      multistep_beta2_(setup.formulation.multistep_beta2),
+      interpolated_motion_(setup.formulation.interpolated_motion),
+      initial_parameters_(setup.formulation.initial_parameters),
       courant_(setup.formulation.courant),
       body_step_(largest_body_step(setup)) {}
 
@@ -85,51 +104,79 @@ void GalerkinSolver<Dim, Kernel>::start(std::span<const Kinematics> bodies) {
   compute_stress();
   extrapolate_to_boundary();
   update_volumes();
+  if (initial_parameters_) find_initial_parameters();
   search_.halo().refresh_nodes(fluid_);
   compute_gradients();
-  compute_stress();
-  extrapolate_to_boundary();
-  if (tension_control_ || shifting_.is_used()) surface_.detect(model_, fluid_, parallel_);
-  compute_forces();
-  collect_wrenches();
-  if (shifting_.is_used()) shifting_.compute(model_, fluid_, boundary_, search_, surface_, parallel_);
-  update_volumes();
+  evaluate();
+  start_history();
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::step(double dt, std::span<const Kinematics> bodies) {
+  assert(dt > 0.0);
+  last_wrench_ = wrench_;
+  switch (integrator_) {
+    case Integrator::kick_drift_kick:
+      kick_drift_kick(dt, bodies);
+      break;
+    case Integrator::leap_frog:
+      leap_frog(dt, bodies);
+      break;
+    case Integrator::predictor_corrector:
+      predictor_corrector(dt, bodies);
+      break;
+    case Integrator::multistep:
+      multistep(dt, bodies);
+  }
+  boundary_work_ += 0.5 * dt * (boundary_power(last_wrench_) + boundary_power(wrench_));
 }
 
 // Kick - drift - kick. Positions of fluid and boundary are those of the end of the step when the velocity
 // gradient is taken, with the velocity of its middle.
 template <int Dim, typename Kernel>
-void GalerkinSolver<Dim, Kernel>::step(double dt, std::span<const Kinematics> bodies) {
-  assert(dt > 0.0);
-  last_wrench_ = wrench_;
+void GalerkinSolver<Dim, Kernel>::kick_drift_kick(double dt, std::span<const Kinematics> bodies) {
   kick(0.5 * dt);
+  move(dt, bodies);
+  compute_gradients();
+  advance_density(dt);
+  evaluate();
+  kick(0.5 * dt);
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::move(double dt, std::span<const Kinematics> bodies) {
   drift(dt);
   if (shifting_.is_used()) shifting_.apply(dt, fluid_, parallel_);
+  place(dt, bodies);
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::place(double dt, std::span<const Kinematics> bodies) {
   move_boundary(dt, bodies);
   search_.update(fluid_, boundary_, parallel_);
   search_.halo().refresh_nodes(fluid_);
   mirror_velocities();
-  compute_gradients();
-  advance_density(dt);
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::evaluate_forces() {
   compute_stress();
   extrapolate_to_boundary();
   if (tension_control_ || shifting_.is_used()) surface_.detect(model_, fluid_, parallel_);
   compute_forces();
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::evaluate() {
+  evaluate_forces();
   collect_wrenches();
   if (shifting_.is_used()) shifting_.compute(model_, fluid_, boundary_, search_, surface_, parallel_);
   update_volumes();
-  kick(0.5 * dt);
-  boundary_work_ += 0.5 * dt * (boundary_power(last_wrench_) + boundary_power(wrench_));
 }
 
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::kick(double dt) {
   parallel_.for_each(fluid_.size(), [&](std::size_t i) { fluid_.node[i].v += dt * fluid_.acceleration[i]; });
-}
-
-template <int Dim, typename Kernel>
-void GalerkinSolver<Dim, Kernel>::drift(double dt) {
-  parallel_.for_each(fluid_.size(), [&](std::size_t i) { fluid_.node[i].x += dt * fluid_.node[i].v; });
 }
 
 template <int Dim, typename Kernel>
@@ -150,11 +197,13 @@ void GalerkinSolver<Dim, Kernel>::mirror_velocities() {
 // Sweep 1.
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::compute_gradients() {
+  if constexpr (!Operator<Dim, Kernel>::kIsDefault) coefficients_.resize(fluid_.size());
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
-    GradientSweep<Dim, Kernel> sweep(model_, fluid_.node[i]);
+    FirstSweep<Dim, Kernel> sweep(model_, fluid_.node[i]);
     sweep.gather(search_.fluid_near_fluid(i), fluid_.node);
     sweep.gather(search_.boundary_near_fluid(i), boundary_.node());
-    const Gradients<Dim> gradients = sweep.finish();
+    const auto gradients = sweep.finish();
+    if constexpr (!Operator<Dim, Kernel>::kIsDefault) coefficients_[i] = gradients.coefficients;
     fluid_.fit[i] = gradients.fit;
     fluid_.source[i].grad_rho = gradients.grad_rho;
     fluid_.divergence[i] = gradients.L.trace();
@@ -191,16 +240,23 @@ double GalerkinSolver<Dim, Kernel>::quadrature_volume(std::size_t i) const {
 // CF (60), (64). The volumes stay those of sweep 1, so that sum grad N = 0 holds for the forces too.
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::compute_stress() {
+  using Rule = Operator<Dim, Kernel>;
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
     fluid_.pressure[i] = model_.eos.pressure(fluid_.node[i].rho);
     Mat<Dim> sigma = -fluid_.pressure[i] * Mat<Dim>::Identity();
+    if constexpr (Rule::kIsIsobaric) sigma.setZero();
     if (!fluid_.stress.empty()) {
       // Where G is not the exact inverse, a shear stress would exert a moment: spray has none.
       fluid_.stress[i] =
           fluid_.fit[i].floored ? Mat<Dim>::Zero() : viscous_stress<Dim>(model_.mu, fluid_.source[i].strain);
       sigma += fluid_.stress[i];
     }
-    set_source<Dim>(quadrature_volume(i), sigma, fluid_.fit[i], fluid_.source[i]);
+    if constexpr (Rule::kIsDefault)
+      set_source<Dim>(quadrature_volume(i), sigma, fluid_.fit[i], fluid_.source[i]);
+    else if constexpr (Rule::kHasPoints)
+      Rule::set_source(model_.eos, quadrature_volume(i), sigma, coefficients_[i], fluid_, i);
+    else
+      Rule::set_source(quadrature_volume(i), sigma, coefficients_[i], fluid_, i);
   });
   search_.halo().refresh_sources(fluid_);
 }
@@ -222,9 +278,29 @@ void GalerkinSolver<Dim, Kernel>::compute_forces() {
     sweep.gather_boundary(search_.boundary_near_fluid(i), boundary_);
     Vec<Dim> force = sweep.force();
     if (tension_control_) force += tension_correction(model_, fluid_, boundary_, search_, surface_, i);
-    fluid_.acceleration[i] = model_.gravity + force / fluid_.mass[i];
+    if (is_symmetrized_ || is_damped_) force += further_force(i);
+    fluid_.acceleration[i] = model_.gravity + force / inertia(i);
     fluid_.density_rate[i] = sweep.density_rate();
   });
+}
+
+// Of the formulations that have sweeps of their own.
+template <int Dim, typename Kernel>
+Vec<Dim> GalerkinSolver<Dim, Kernel>::further_force(std::size_t i) const {
+  Vec<Dim> force = Vec<Dim>::Zero();
+  if constexpr (Operator<Dim, Kernel>::kIsDefault)
+    if (is_symmetrized_) force += symmetrized_extra<Dim>(model_, fluid_, boundary_, search_, i);
+  if constexpr (HasLaplacian<Kernel, Dim>)
+    if (is_damped_) force += damped_force<Dim>(model_, fluid_, boundary_, search_, i);
+  return force;
+}
+
+// What the force on a particle is divided by [kg].
+template <int Dim, typename Kernel>
+double GalerkinSolver<Dim, Kernel>::inertia(std::size_t i) const {
+  if constexpr (Operator<Dim, Kernel>::kHasSumOne)
+    if (has_lumped_mass_) return lumped_mass<Dim>(model_, fluid_, boundary_, search_, i);
+  return fluid_.mass[i];
 }
 
 template <int Dim, typename Kernel>
@@ -232,8 +308,15 @@ void GalerkinSolver<Dim, Kernel>::collect_wrenches() {
   const auto& active = search_.active_boundary();
   reaction_.resize(active.size());
   parallel_.for_each(active.size(), [&](std::size_t a) {
-    if (is_measured(active[a]))
-      reaction_[a] = reaction<Dim>(model_, fluid_, search_.fluid_near_active(a), active[a], boundary_);
+    if (!is_measured(active[a])) return;
+    const auto near = search_.fluid_near_active(a);
+    reaction_[a] = reaction<Dim>(model_, fluid_, near, active[a], boundary_);
+    if constexpr (Operator<Dim, Kernel>::kIsDefault)
+      if (is_symmetrized_)
+        add_symmetrized_reaction<Dim>(model_, fluid_, near, active[a], boundary_, reaction_[a]);
+    if constexpr (HasLaplacian<Kernel, Dim>)
+      if (is_damped_)
+        add_damped_reaction<Dim>(model_, fluid_, near, boundary_.node()[active[a]], reaction_[a]);
   });
   wrench_.assign(wrench_.size(), Wrench{});
   for (std::size_t a = 0; a < active.size(); ++a) {
@@ -294,46 +377,6 @@ double GalerkinSolver<Dim, Kernel>::largest_step(double max_speed) const {
   const double viscous =
       model_.h * model_.h * model_.eos.rest_density() / (model_.artificial_viscosity + 1e-300);
   return std::min(courant_ * std::min(acoustic, viscous), body_step_);
-}
-
-template <int Dim, typename Kernel>
-Snapshot GalerkinSolver<Dim, Kernel>::snapshot() const {
-  Snapshot s;
-  s.position.resize(3 * fluid_.size());
-  s.velocity.resize(3 * fluid_.size());
-  s.density.resize(fluid_.size());
-  s.pressure.resize(fluid_.size());
-  for (std::size_t k = 0; k < fluid_.size(); ++k) {
-    const std::size_t i = fluid_.id[k];
-    Eigen::Map<Eigen::Vector3d>(&s.position[3 * i]) = widen<Dim>(fluid_.node[k].x);
-    Eigen::Map<Eigen::Vector3d>(&s.velocity[3 * i]) = widen<Dim>(fluid_.node[k].v);
-    s.density[i] = fluid_.node[k].rho;
-    s.pressure[i] = fluid_.pressure[k];
-  }
-  return s;
-}
-
-template <int Dim, typename Kernel>
-Diagnostics GalerkinSolver<Dim, Kernel>::diagnostics() const {
-  Diagnostics d;
-  for (std::size_t i = 0; i < fluid_.size(); ++i) {
-    const Node<Dim>& node = fluid_.node[i];
-    const Eigen::Vector3d momentum = fluid_.mass[i] * widen<Dim>(node.v);
-    d.kinetic += 0.5 * fluid_.mass[i] * node.v.squaredNorm();
-    d.potential -= fluid_.mass[i] * model_.gravity.dot(node.x);
-    d.elastic += fluid_.mass[i] * model_.eos.elastic_energy(node.rho);
-    d.momentum += momentum;
-    d.angular_momentum += widen<Dim>(node.x).cross(momentum);
-    d.max_speed = larger(d.max_speed, node.v.norm());
-    d.max_compression = larger(d.max_compression, std::abs(node.rho / model_.eos.rest_density() - 1.0));
-  }
-  const auto& active = search_.active_boundary();
-  for (std::size_t a = 0; a < active.size(); ++a)
-    for (const std::uint32_t i : search_.fluid_near_active(a))
-      if (i < fluid_.size())
-        d.elastic += guard_energy<Dim>(model_, fluid_.node[i].x - boundary_.node()[active[a]].x);
-  d.boundary_work = boundary_work_;
-  return d;
 }
 
 }  // namespace sluice::fluid

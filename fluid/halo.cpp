@@ -61,6 +61,8 @@ void Halo<Dim>::append(Particles<Dim>& fluid, const std::vector<std::uint32_t>& 
   fluid.fit.resize(all);
   fluid.source.resize(all);
   if (!fluid.stress.empty()) fluid.stress.resize(all);
+  if (!fluid.slope_source.empty()) fluid.slope_source.resize(all);
+  if (!fluid.point_source.empty()) fluid.point_source.resize(Particles<Dim>::kPoints * all);
   refresh_nodes(fluid);
 }
 
@@ -82,6 +84,11 @@ void Halo<Dim>::refresh_sources(Particles<Dim>& fluid) const {
     fluid.fit[to] = fluid.fit[image_[k].of];
     fluid.source[to] = fluid.source[image_[k].of];
     if (!fluid.stress.empty()) fluid.stress[to] = fluid.stress[image_[k].of];
+    if (!fluid.slope_source.empty()) fluid.slope_source[to] = fluid.slope_source[image_[k].of];
+    if (fluid.point_source.empty()) continue;
+    constexpr std::size_t kPoints = Particles<Dim>::kPoints;
+    for (std::size_t s = 0; s < kPoints; ++s)
+      fluid.point_source[kPoints * to + s] = fluid.point_source[kPoints * image_[k].of + s];
   }
 }
 

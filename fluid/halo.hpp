@@ -26,6 +26,11 @@ class Halo {
   // Appends the images that find() found, in the order given.
   void append(Particles<Dim>& fluid, const std::vector<std::uint32_t>& order);
 
+  // The particle that entry k of the arrays is, or is the image of.
+  [[nodiscard]] std::size_t particle(std::size_t k, const Particles<Dim>& fluid) const {
+    return k < fluid.size() ? k : image_[k - fluid.size()].of;
+  }
+
   // Copies to the images what moved, and what sweep 1 and the stress left.
   void refresh_nodes(Particles<Dim>& fluid) const;
   void refresh_sources(Particles<Dim>& fluid) const;

@@ -22,7 +22,7 @@ struct ValueAndSlope {
 
 // Wendland's C2 kernel (H. Wendland, Adv. Comput. Math. 4, 1995):
 //   W(r) = A (1 - q/2)^4 (2q + 1),  q = r/h,  A = 7/(4 pi h^2) in 2D, 21/(16 pi h^3) in 3D
-//   F(r) = 5 A/h^2 (1 - q/2)^3
+//   F(r) = 5 A/h^2 (1 - q/2)^3,  Laplacian 5 A/h^2 (1 - q/2)^2 (3 q/2 - Dim (1 - q/2))
 template <int Dim>
 class WendlandC2 {
  public:
@@ -53,6 +53,13 @@ class WendlandC2 {
     const double u = std::max(0.0, 1.0 - half_q);
     const double u3 = u * u * u;
     return {amplitude_ * u3 * u * (4.0 * half_q + 1.0), slope_ * u3};
+  }
+
+  // [1/m^(Dim+2)]
+  [[nodiscard]] double laplacian(const Vec<Dim>& x) const {
+    const double half_q = x.norm() * half_inverse_h_;
+    const double u = std::max(0.0, 1.0 - half_q);
+    return slope_ * u * u * (3.0 * half_q - Dim * u);
   }
 
  private:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fluid/approximation.hpp"
 #include "fluid/equation_of_state.hpp"
 #include "fluid/kernel.hpp"
 #include "fluid/lattice.hpp"
@@ -22,13 +23,19 @@ struct Model {
                                  setup.liquid.density +
                              2.0 * (Dim + 2) * setup.liquid.viscosity),
         lattice_moment(fluid::lattice_moment<Dim>(kernel, setup.spacing)),
+        lattice_sum(fluid::lattice_sum<Dim>(kernel, setup.spacing)),
+        lattice_slope(fluid::lattice_slope<Dim>(kernel, setup.spacing)),
         moment_floor(setup.formulation.moment_floor * lattice_moment),
+        slope_floor(setup.formulation.moment_floor * lattice_slope),
         tiny_r2(1e-4 * h * h),
         guard_range(0.75 * setup.spacing),
         guard_stiffness(setup.liquid.density * setup.fluid.volume * setup.liquid.sound_speed *
                         setup.liquid.sound_speed / (setup.spacing * setup.spacing)),
         first_volume(setup.fluid.volume),
-        boundary_G(1.0 / lattice_moment) {}
+        boundary_G(Operator<Dim, Kernel>::lattice_G(lattice_moment, lattice_slope)),
+        extra_reach(Operator<Dim, Kernel>::extra_reach(setup.spacing)),
+        points(stress_points<Dim>(setup.spacing)),
+        isobaric_scale(setup.formulation.isobaric_scale) {}
 
   double spacing;  // dx [m]
   double h;        // smoothing length [m]
@@ -39,12 +46,18 @@ struct Model {
   double density_diffusion;     // 2 delta h c0 [m^2/s]
   double artificial_viscosity;  // alpha h c0 rho0 [Pa s]
   double lattice_moment;        // eigenvalue of C on the undisturbed lattice [m^2]
+  double lattice_sum;           // of V W on the undisturbed lattice [-]
+  double lattice_slope;         // the same of the sum of V F x (x) x [-]
   double moment_floor;          // [m^2]
+  double slope_floor;           // [-]
   double tiny_r2;               // (h/100)^2 [m^2], keeps coincident particles from a division by zero
   double guard_range;           // of the penetration guard [m]; see force_sweep.hpp
   double guard_stiffness;       // m c0^2 / dx^2 [N/m]
   double first_volume;          // of every fluid particle [m^Dim]
   double boundary_G;            // G of boundary particles, the lattice's, times identity [1/m^2]
+  double extra_reach;           // beyond the support at which particles act on each other [m]
+  std::array<Vec<Dim>, Particles<Dim>::kPoints> points;  // stress points of a particle, from it [m]
+  double isobaric_scale;                                 // delta of PC (15)
 };
 
 }  // namespace sluice::fluid

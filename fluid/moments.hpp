@@ -33,6 +33,7 @@ struct Fit {
   Mat<Dim> G;
   // An eigenvalue of C was below the floor: too few neighbours for a linear fit (spray).
   bool floored;
+  double a = 0;  // (1 - m1.g)/m0, so that N_j(x_i) = V_j W_ij (a + g.x_ji)
 };
 
 // Inverse of a symmetric matrix by its adjugate; Dim is 2 or 3.
@@ -89,6 +90,7 @@ Fit<Dim> fit(const Moments<Dim>& m, double floor) {
   f.G = floored_inverse<Dim>(C, floor, f.floored);
   f.m0 = m.m0;
   f.g = -f.G * m.m1 / m.m0;
+  f.a = (1.0 - m.m1.dot(f.g)) / m.m0;
   return f;
 }
 

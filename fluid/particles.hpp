@@ -27,8 +27,23 @@ struct Source {
   Vec<Dim> grad_rho = Vec<Dim>::Zero();  // [kg/m^4]
 };
 
+// What MLS with the full derivative leaves in addition (approximation.hpp).
+template <int Dim>
+struct SlopeSource {
+  Mat<Dim> sigma_V = Mat<Dim>::Zero();  // V sigma
+  double a = 0;                         // N_j = V_j W (a + b.x_ji)
+  Vec<Dim> b = Vec<Dim>::Zero();
+};
+
+// V_s sigma_s g_s and V_s sigma_s G_s of a stress point (approximation.hpp).
+template <int Dim>
+struct PointSource {
+  Vec<Dim> s = Vec<Dim>::Zero();
+  Mat<Dim> S = Mat<Dim>::Zero();
+};
+
 // The state of the fluid, in the order of the last sort. Arrays of size() particles; node, pressure, stress,
-// fit and source go on with the images beyond periodic sides (halo.hpp).
+// fit, source, slope_source and point_source go on with the images beyond periodic sides (halo.hpp).
 template <int Dim>
 struct Particles {
   std::vector<double> mass;            // [kg]
@@ -43,6 +58,10 @@ struct Particles {
   std::vector<Mat<Dim>> stress;    // sigma + p I, the viscous part [Pa]; empty without viscosity
   std::vector<Fit<Dim>> fit;
   std::vector<Source<Dim>> source;
+  std::vector<SlopeSource<Dim>> slope_source;  // empty but with the full derivative
+  // Of the stress points, 2^Dim for each particle; empty without them.
+  static constexpr std::size_t kPoints = std::size_t{1} << Dim;
+  std::vector<PointSource<Dim>> point_source;
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
 };

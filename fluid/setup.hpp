@@ -24,10 +24,38 @@ enum class KernelKind { wendland, cubic_spline, tensor_spline, sinc_squared };  
 // What weighs the neighbours in the moments: their volume as well, CF (11), or the kernel alone, CF (12).
 enum class Weights { kernel_and_volume, kernel };
 
+// How the derivative of a shape function follows from the kernel (approximation.hpp).
+enum class Approximation { mls, mls_full_derivative, shepard, sph, corrected_sph };
+
+// CF (43); the comparator CF (105); PC (13)-(16).
+enum class InternalForce { galerkin, symmetrized, isobaric };
+
+// The stress of CF (60) in the internal force; PC (17)-(18).
+enum class ViscousForce { stress, damped };
+
+enum class Integrator { kick_drift_kick, leap_frog, predictor_corrector, multistep };  // integrators.hpp
+
+// Where the stress is taken: at the particles, CF (43), or at points around them, CF (54).
+enum class Quadrature { nodal, stress_points };
+
+// What the force on a particle is divided by: its mass, CF (58), or the lumped mass of the weak form, CF
+// (56).
+enum class Mass { physical, lumped };
+
 // Numerical parameters; README.md, "Parameters", has the measurements behind the defaults.
 struct Formulation {
   KernelKind kernel = KernelKind::wendland;
   Weights weights = Weights::kernel_and_volume;
+  Approximation approximation = Approximation::mls;
+  InternalForce internal_force = InternalForce::galerkin;
+  double isobaric_scale = 0.1;  // delta of PC (15): relative difference of pressures that counts as large
+  ViscousForce viscous_force = ViscousForce::stress;
+  Integrator integrator = Integrator::kick_drift_kick;
+  double multistep_beta1 = 1, multistep_beta2 = 1;  // of PC (26)-(27)
+  Quadrature quadrature = Quadrature::nodal;
+  Mass mass = Mass::physical;
+  double interpolated_motion = 0;          // share of v-hat CF (75) in the velocity that moves the particles
+  bool initial_parameters = false;         // the velocities given are those of the fluid, CF (99)
   double smoothing = stable_smoothing(2);  // h/dx
   double density_diffusion = 0.1;          // delta
   double artificial_viscosity = 0.02;      // alpha
@@ -82,6 +110,10 @@ struct Setup {
   bool measure_wall_force = false;  // the walls' wrench costs a sweep over wall particles near the fluid
   std::vector<Boundary> bodies;
   int threads = 1;
+
+  [[nodiscard]] bool has_viscous_stress() const {
+    return liquid.viscosity > 0.0 && formulation.viscous_force == ViscousForce::stress;
+  }
 };
 
 }  // namespace sluice::fluid

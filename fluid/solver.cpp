@@ -29,6 +29,33 @@ void check(const Setup& setup) {
   const Formulation& f = setup.formulation;
   require(f.smoothing >= 1, "smoothing h/dx", f.smoothing, "at least 1, else neighbours are too few");
   require(f.courant > 0 && f.courant <= 1, "courant", f.courant, "it must be in (0, 1]");
+  const bool wendland = f.kernel == KernelKind::wendland, mls = f.approximation == Approximation::mls;
+  require(mls || wendland, "kernel", static_cast<double>(f.kernel),
+          "other approximations than moving least squares are built with the Wendland kernel, 0");
+  require(f.internal_force != InternalForce::isobaric || f.approximation == Approximation::sph,
+          "approximation", static_cast<double>(f.approximation), "the isobaric pressure needs plain SPH, 3");
+  require(f.internal_force != InternalForce::symmetrized || mls, "approximation",
+          static_cast<double>(f.approximation), "the symmetrized force is built for moving least squares, 0");
+  require(!f.tension_control || mls, "approximation", static_cast<double>(f.approximation),
+          "tension control needs moving least squares, 0");
+  require(f.quadrature == Quadrature::nodal ||
+              (mls && wendland && f.internal_force == InternalForce::galerkin && !f.tension_control),
+          "quadrature", static_cast<double>(f.quadrature),
+          "stress points, 1, go with moving least squares, the Wendland kernel and the Galerkin force");
+  const bool sum_one =
+      f.approximation != Approximation::sph && f.approximation != Approximation::corrected_sph;
+  const char* fitted = "it needs shape functions whose sum is one: moving least squares, 0, 1 or Shepard, 2";
+  require(f.mass == Mass::physical || sum_one, "approximation", static_cast<double>(f.approximation), fitted);
+  require(f.interpolated_motion >= 0 && f.interpolated_motion <= 1, "interpolated_motion",
+          f.interpolated_motion, "it must be in [0, 1]");
+  require(f.interpolated_motion == 0 || sum_one, "approximation", static_cast<double>(f.approximation),
+          fitted);
+  require(!f.initial_parameters || f.interpolated_motion > 0, "interpolated_motion", f.interpolated_motion,
+          "initial parameters need particles that move with the interpolated velocity");
+  require(f.viscous_force == ViscousForce::stress || (wendland && setup.liquid.viscosity > 0),
+          "viscosity [Pa s]", setup.liquid.viscosity,
+          "the damped viscosity needs some, and the Wendland kernel");
+  require(f.isobaric_scale > 0, "isobaric_scale", f.isobaric_scale, "it must be positive");
   require(f.moment_floor > 0 && f.moment_floor < 1, "moment_floor", f.moment_floor, "it must be in (0, 1)");
   const std::size_t n = setup.fluid.position.size();
   require(n > 0, "number of fluid particles", 0, "a run needs some: is a region smaller than the spacing?");
@@ -41,6 +68,36 @@ template <template <int> typename Kernel>
 std::unique_ptr<Solver> make(const Setup& setup) {
   if (setup.dimension == 2) return std::make_unique<GalerkinSolver<2, Kernel<2>>>(setup);
   return std::make_unique<GalerkinSolver<3, Kernel<3>>>(setup);
+}
+
+template <int Dim>
+using FullDerivative = WithFullDerivative<WendlandC2<Dim>>;
+template <int Dim>
+using ShepardSum = WithShepard<WendlandC2<Dim>>;
+template <int Dim>
+using PlainSph = WithSph<WendlandC2<Dim>>;
+template <int Dim>
+using CorrectedSum = WithCorrectedSph<WendlandC2<Dim>>;
+template <int Dim>
+using PointQuadrature = WithStressPoints<WendlandC2<Dim>>;
+template <int Dim>
+using IsobaricSum = WithIsobaricSph<WendlandC2<Dim>>;
+
+std::unique_ptr<Solver> make_with_operator(const Setup& setup) {
+  switch (setup.formulation.approximation) {
+    case Approximation::mls_full_derivative:
+      return make<FullDerivative>(setup);
+    case Approximation::shepard:
+      return make<ShepardSum>(setup);
+    case Approximation::sph:
+      if (setup.formulation.internal_force == InternalForce::isobaric) return make<IsobaricSum>(setup);
+      return make<PlainSph>(setup);
+    case Approximation::corrected_sph:
+      return make<CorrectedSum>(setup);
+    case Approximation::mls:
+      if (setup.formulation.quadrature == Quadrature::stress_points) return make<PointQuadrature>(setup);
+  }
+  return make<WendlandC2>(setup);
 }
 
 }  // namespace
@@ -57,7 +114,7 @@ std::unique_ptr<Solver> make_solver(const Setup& setup) {
     case KernelKind::wendland:
       break;
   }
-  return make<WendlandC2>(setup);
+  return make_with_operator(setup);
 }
 
 }  // namespace sluice::fluid

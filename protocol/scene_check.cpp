@@ -57,25 +57,6 @@ void check_output(const Scene& scene, FieldCheck& check) {
                              scene.duration(), kHighestRate, kMostFrames));
 }
 
-void check_formulation(const Formulation& formulation, FieldCheck& check) {
-  if (formulation.has_smoothing()) check.within(formulation.smoothing(), 1, 4, "formulation.smoothing");
-  if (formulation.has_density_diffusion())
-    check.within(formulation.density_diffusion(), 0, 1, "formulation.density_diffusion");
-  if (formulation.has_artificial_viscosity())
-    check.within(formulation.artificial_viscosity(), 0, 10, "formulation.artificial_viscosity");
-  if (formulation.has_moment_floor())
-    check.within(formulation.moment_floor(), 0.01, 1, "formulation.moment_floor");
-  if (!KernelKind_IsValid(formulation.kernel()))
-    check.report("formulation.kernel",
-                 fmt::format("{} is not a kernel; give WENDLAND, CUBIC_SPLINE, TENSOR_SPLINE or SINC_SQUARED",
-                             static_cast<int>(formulation.kernel())));
-  if (!Weights_IsValid(formulation.weights()))
-    check.report("formulation.weights", fmt::format("{} is none; give KERNEL_AND_VOLUME or KERNEL_ALONE",
-                                                    static_cast<int>(formulation.weights())));
-  if (formulation.has_shifting()) check.within(formulation.shifting(), 0, 20, "formulation.shifting");
-  if (formulation.has_courant()) check.within(formulation.courant(), 0.001, 1, "formulation.courant");
-}
-
 void check_regions(const Scene& scene, FieldCheck& check) {
   if (scene.fluid().empty())
     check.report("fluid",
@@ -116,7 +97,7 @@ std::vector<Problem> check_fields(const Scene& scene) {
   check_run(scene, check);
   check_liquid(scene.liquid(), check);
   check_output(scene, check);
-  check_formulation(scene.formulation(), check);
+  check_formulation(scene, check);
   if (scene.dimension() == 2 || scene.dimension() == 3) {
     check_domain(scene, check);
     check_regions(scene, check);

@@ -99,6 +99,14 @@ void fill_formulation(Formulation& formulation, unsigned dimension, bool periodi
   if (!formulation.has_courant()) formulation.set_courant(0.4);
   if (formulation.kernel() == KERNEL_UNSPECIFIED) formulation.set_kernel(WENDLAND);
   if (formulation.weights() == WEIGHTS_UNSPECIFIED) formulation.set_weights(KERNEL_AND_VOLUME);
+  if (formulation.approximation() == APPROXIMATION_UNSPECIFIED) formulation.set_approximation(MLS);
+  if (formulation.internal_force() == INTERNAL_FORCE_UNSPECIFIED) formulation.set_internal_force(GALERKIN);
+  if (formulation.viscous_force() == VISCOUS_FORCE_UNSPECIFIED) formulation.set_viscous_force(STRESS);
+  if (formulation.integrator() == INTEGRATOR_UNSPECIFIED) formulation.set_integrator(KICK_DRIFT_KICK);
+  if (formulation.quadrature() == QUADRATURE_UNSPECIFIED) formulation.set_quadrature(NODAL);
+  if (formulation.mass() == MASS_UNSPECIFIED) formulation.set_mass(PHYSICAL);
+  if (!formulation.has_interpolated_motion()) formulation.set_interpolated_motion(0);
+  if (!formulation.has_initial_parameters()) formulation.set_initial_parameters(false);
   if (!formulation.has_tension_control()) formulation.set_tension_control(false);
   if (!formulation.has_shifting()) formulation.set_shifting(periodic ? 6 : 0);
 }

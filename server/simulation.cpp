@@ -5,6 +5,7 @@
 
 #include "fluid/sampling.hpp"
 #include "protocol/scene_check.hpp"
+#include "server/formulation.hpp"
 #include "server/geometry.hpp"
 #include "server/liquid.hpp"
 
@@ -28,33 +29,6 @@ fluid::Period to_period(const fluid::Tank& tank) {
   for (int a = 0; a < 3; ++a)
     if (tank.periodic[static_cast<std::size_t>(a)]) period.length[a] = tank.max[a] - tank.min[a];
   return period;
-}
-
-fluid::Formulation to_formulation(const Formulation& formulation) {
-  fluid::Formulation result;
-  if (formulation.has_smoothing()) result.smoothing = formulation.smoothing();
-  if (formulation.has_density_diffusion()) result.density_diffusion = formulation.density_diffusion();
-  if (formulation.has_artificial_viscosity())
-    result.artificial_viscosity = formulation.artificial_viscosity();
-  if (formulation.has_moment_floor()) result.moment_floor = formulation.moment_floor();
-  if (formulation.has_tension_control()) result.tension_control = formulation.tension_control();
-  if (formulation.has_shifting()) result.shifting = formulation.shifting();
-  switch (formulation.kernel()) {
-    case CUBIC_SPLINE:
-      result.kernel = fluid::KernelKind::cubic_spline;
-      break;
-    case TENSOR_SPLINE:
-      result.kernel = fluid::KernelKind::tensor_spline;
-      break;
-    case SINC_SQUARED:
-      result.kernel = fluid::KernelKind::sinc_squared;
-      break;
-    default:
-      result.kernel = fluid::KernelKind::wendland;
-  }
-  if (formulation.weights() == KERNEL_ALONE) result.weights = fluid::Weights::kernel;
-  if (formulation.has_courant()) result.courant = formulation.courant();
-  return result;
 }
 
 protocol::StepClock make_clock(const Scene& scene, double largest_step) {

@@ -64,6 +64,32 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"CourantZero", [](Setup& s) { s.formulation.courant = 0; }, "courant", "0"},
         Refusal{"FloorOne", [](Setup& s) { s.formulation.moment_floor = 1; }, "moment_floor", "1"},
         Refusal{"FloorZero", [](Setup& s) { s.formulation.moment_floor = 0; }, "moment_floor", "0"},
+        Refusal{"SphKernel",
+                [](Setup& s) {
+                  s.formulation.approximation = Approximation::sph;
+                  s.formulation.kernel = KernelKind::cubic_spline;
+                },
+                "kernel", "1"},
+        Refusal{"IsobaricMls", [](Setup& s) { s.formulation.internal_force = InternalForce::isobaric; },
+                "approximation", "plain SPH"},
+        Refusal{"LumpedSph",
+                [](Setup& s) {
+                  s.formulation.approximation = Approximation::corrected_sph;
+                  s.formulation.mass = Mass::lumped;
+                },
+                "approximation", "sum is one"},
+        Refusal{"InterpolatedTwice", [](Setup& s) { s.formulation.interpolated_motion = 2; },
+                "interpolated_motion", "2"},
+        Refusal{"ParametersWithoutMotion", [](Setup& s) { s.formulation.initial_parameters = true; },
+                "interpolated_motion", "0"},
+        Refusal{"DampedInviscid", [](Setup& s) { s.formulation.viscous_force = ViscousForce::damped; },
+                "viscosity", "0"},
+        Refusal{"PointsOfSph",
+                [](Setup& s) {
+                  s.formulation.approximation = Approximation::shepard;
+                  s.formulation.quadrature = Quadrature::stress_points;
+                },
+                "quadrature", "1"},
         Refusal{"NoFluid",
                 [](Setup& s) {
                   s.fluid = FluidParticles{{}, {}, {}, 0.01};

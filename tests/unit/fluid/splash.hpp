@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "tests/unit/fluid/setups.hpp"
 
 namespace sluice::fluid {
@@ -8,8 +10,13 @@ namespace sluice::fluid {
 // everything that exerts a force takes part within a few dozen steps.
 class Splash {
  public:
-  Splash(int dimension, double viscosity, int threads) : scene_(dimension, 0.1, 9.81, 30.0) {
+  using Choice = std::function<void(Formulation&)>;
+
+  Splash(
+      int dimension, double viscosity, int threads, const Choice& choose = [](Formulation&) {})
+      : scene_(dimension, 0.1, 9.81, 30.0) {
     Setup& setup = scene_.setup;
+    choose(setup.formulation);
     setup.liquid.viscosity = viscosity;
     setup.measure_wall_force = true;
     setup.threads = threads;

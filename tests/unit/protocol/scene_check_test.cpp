@@ -64,6 +64,57 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
+    Formulation, SceneFault,
+    testing::Values(
+        Fault{"NoKernel", 4, "duration: 1 formulation { kernel: 9 }",
+              ":4:27: formulation.kernel: 9 is none; give WENDLAND, CUBIC_SPLINE, TENSOR_SPLINE or "
+              "SINC_SQUARED"},
+        Fault{"NoMass", 4, "duration: 1 formulation { mass: 3 }",
+              ":4:27: formulation.mass: 3 is none; give PHYSICAL or LUMPED"},
+        Fault{
+            "SphKernel", 4, "duration: 1 formulation { approximation: SPH kernel: CUBIC_SPLINE }",
+            ":4:27: formulation.approximation: other ones than MLS are built with the kernel WENDLAND only; "
+            "leave kernel out"},
+        Fault{"SphWeights", 4, "duration: 1 formulation { approximation: SPH weights: KERNEL_ALONE }",
+              ":4:46: formulation.weights: KERNEL_ALONE belongs to the fit of MLS, MLS_FULL_DERIVATIVE or "
+              "SHEPARD; SPH has no fit"},
+        Fault{"SphTension", 4, "duration: 1 formulation { approximation: SPH tension_control: true }",
+              ":4:46: formulation.tension_control: takes the pressure relative to the particle's own in the "
+              "gradients of MLS; leave approximation out"},
+        Fault{"SphSymmetrized", 4,
+              "duration: 1 formulation { approximation: SPH internal_force: SYMMETRIZED }",
+              ":4:46: formulation.internal_force: SYMMETRIZED is built for MLS, to compare with; SPH is "
+              "symmetrized as it is"},
+        Fault{"MlsIsobaric", 4, "duration: 1 formulation { internal_force: ISOBARIC }",
+              ":4:27: formulation.internal_force: ISOBARIC is a sum over kernel gradients; set approximation "
+              "to "
+              "SPH"},
+        Fault{"IsobaricScale", 4, "duration: 1 formulation { isobaric_scale: 0.2 }",
+              ":4:27: formulation.isobaric_scale: belongs to internal_force ISOBARIC; set that or leave this "
+              "out"},
+        Fault{
+            "DampedInviscid", 5, "liquid { max_speed: 1 } formulation { viscous_force: DAMPED }",
+            ":5:39: formulation.viscous_force: DAMPED without viscosity does nothing; set liquid.viscosity"},
+        Fault{
+            "SphPoints", 4, "duration: 1 formulation { approximation: SPH quadrature: STRESS_POINTS }",
+            ":4:46: formulation.quadrature: STRESS_POINTS is built for MLS with the kernel WENDLAND and the "
+            "internal force GALERKIN; leave approximation, kernel and internal_force out"},
+        Fault{"Beta", 4, "duration: 1 formulation { multistep_beta2: 1.1 }",
+              ":4:27: formulation.multistep_beta2: belongs to integrator MULTISTEP; set that or leave this "
+              "out"},
+        Fault{"SphMass", 4, "duration: 1 formulation { approximation: SPH mass: LUMPED }",
+              ":4:46: formulation.mass: LUMPED needs shape functions whose sum is one, CF (57); set "
+              "approximation to MLS, MLS_FULL_DERIVATIVE or SHEPARD"},
+        Fault{
+            "SphMotion", 4, "duration: 1 formulation { approximation: SPH interpolated_motion: 1 }",
+            ":4:46: formulation.interpolated_motion: needs shape functions whose sum is one, else a uniform "
+            "velocity is not kept; set approximation to MLS, MLS_FULL_DERIVATIVE or SHEPARD"},
+        Fault{"Parameters", 4, "duration: 1 formulation { initial_parameters: true }",
+              ":4:27: formulation.initial_parameters: makes sense where particles move with the interpolated "
+              "velocity; set interpolated_motion"}),
+    [](const auto& test) { return test.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
     Liquid, SceneFault,
     testing::Values(Fault{"Density", 5, "liquid { density: 0 }",
                           ":5:10: liquid.density: 0 kg/m^3 is not positive; leave it out for water, 1000"},

@@ -27,6 +27,41 @@ TEST(Setup, TakesOverLiquidAndFormulation) {
   EXPECT_EQ(setup.threads, 3);
 }
 
+TEST(Setup, TakesOverTheChoicesOfTheFormulation) {
+  const auto formulation = [](const std::string& text) {
+    return server::to_setup(tank_with("liquid { viscosity: 1 } fluid { box { min: [0, 0] max: [1, 1] } } "
+                                      "formulation { " +
+                                      text + " }"),
+                            1)
+        .formulation;
+  };
+  const fluid::Formulation sph = formulation(
+      "approximation: SPH internal_force: ISOBARIC isobaric_scale: 0.2 viscous_force: DAMPED "
+      "integrator: MULTISTEP multistep_beta1: 0.7 multistep_beta2: 1.1");
+  EXPECT_EQ(sph.approximation, fluid::Approximation::sph);
+  EXPECT_EQ(sph.internal_force, fluid::InternalForce::isobaric);
+  EXPECT_EQ(sph.isobaric_scale, 0.2);
+  EXPECT_EQ(sph.viscous_force, fluid::ViscousForce::damped);
+  EXPECT_EQ(sph.integrator, fluid::Integrator::multistep);
+  EXPECT_EQ(sph.multistep_beta1, 0.7);
+  EXPECT_EQ(sph.multistep_beta2, 1.1);
+  const fluid::Formulation lumped = formulation(
+      "approximation: SHEPARD mass: LUMPED interpolated_motion: 0.5 initial_parameters: true "
+      "integrator: LEAP_FROG");
+  EXPECT_EQ(lumped.approximation, fluid::Approximation::shepard);
+  EXPECT_EQ(lumped.mass, fluid::Mass::lumped);
+  EXPECT_EQ(lumped.interpolated_motion, 0.5);
+  EXPECT_TRUE(lumped.initial_parameters);
+  EXPECT_EQ(lumped.integrator, fluid::Integrator::leap_frog);
+  EXPECT_EQ(formulation("approximation: MLS_FULL_DERIVATIVE").approximation,
+            fluid::Approximation::mls_full_derivative);
+  EXPECT_EQ(formulation("approximation: CORRECTED_SPH").approximation, fluid::Approximation::corrected_sph);
+  EXPECT_EQ(formulation("internal_force: SYMMETRIZED").internal_force, fluid::InternalForce::symmetrized);
+  EXPECT_EQ(formulation("quadrature: STRESS_POINTS").quadrature, fluid::Quadrature::stress_points);
+  EXPECT_EQ(formulation("integrator: PREDICTOR_CORRECTOR").integrator,
+            fluid::Integrator::predictor_corrector);
+}
+
 TEST(Setup, HasWallsAtClosedSidesOnly) {
   const fluid::Setup setup = server::to_setup(
       tank_with("domain { open: [Y_MAX, X_MIN] } fluid { box { min: [0, 0] max: [1, 1] } }"), 1);

@@ -1,0 +1,9 @@
+#include "fluid/galerkin_stages.hpp"
+#include "fluid/kernel.hpp"
+
+namespace sluice::fluid {
+
+template class GalerkinSolver<2, WithStressPoints<WendlandC2<2>>>;
+template class GalerkinSolver<3, WithStressPoints<WendlandC2<3>>>;
+
+}  // namespace sluice::fluid
