@@ -20,6 +20,7 @@
 #include "fluid/stress_points.hpp"
 #include "fluid/symmetrized_force.hpp"
 #include "fluid/tension_control.hpp"
+#include "fluid/wedged.hpp"
 
 namespace sluice::fluid {
 
@@ -198,6 +199,8 @@ void GalerkinSolver<Dim, Kernel>::mirror_velocities() {
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::compute_gradients() {
   if constexpr (!Operator<Dim, Kernel>::kIsDefault) coefficients_.resize(fluid_.size());
+  // Corrected SPH threw a single particle of a splash out by it.
+  const bool looks_for_films = Operator<Dim, Kernel>::kIsDefault && !bodies_.empty();
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
     FirstSweep<Dim, Kernel> sweep(model_, fluid_.node[i]);
     sweep.gather(search_.fluid_near_fluid(i), fluid_.node);
@@ -205,6 +208,9 @@ void GalerkinSolver<Dim, Kernel>::compute_gradients() {
     const auto gradients = sweep.finish();
     if constexpr (!Operator<Dim, Kernel>::kIsDefault) coefficients_[i] = gradients.coefficients;
     fluid_.fit[i] = gradients.fit;
+    if (looks_for_films &&
+        is_wedged<Dim>(model_, fluid_.node[i].x, search_.boundary_near_fluid(i), boundary_))
+      fluid_.fit[i].floored = true;
     fluid_.source[i].grad_rho = gradients.grad_rho;
     fluid_.divergence[i] = gradients.L.trace();
     fluid_.source[i].strain = strain_rate<Dim>(gradients.L);

@@ -31,7 +31,7 @@ struct Fit {
   double m0;
   Vec<Dim> g;
   Mat<Dim> G;
-  // An eigenvalue of C was below the floor: too few neighbours for a linear fit (spray).
+  // Spray: an eigenvalue of C was below the floor, too few neighbours for a linear fit; or wedged.hpp.
   bool floored;
   double a = 0;  // (1 - m1.g)/m0, so that N_j(x_i) = V_j W_ij (a + g.x_ji)
 };
