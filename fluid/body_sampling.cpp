@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fluid/sampling.hpp"
+#include "fluid/layers.hpp"
 
 namespace sluice::fluid {
 
@@ -174,17 +174,30 @@ Boundary sample_ball(const BallShape& ball, double spacing, int layers, int dime
 
 }  // namespace
 
-Boundary sample_body(const Shape& shape, double spacing, double support, int dimension) {
+Boundary sample_thick(const Shape& shape, double spacing, double support, int dimension) {
   const int layers = layer_count(support, spacing);
+  if (const auto* box = std::get_if<BoxShape>(&shape)) return sample_thick(*box, spacing, layers, dimension);
   if (const auto* ball = std::get_if<BallShape>(&shape))
     return sample_ball(*ball, spacing, layers, dimension);
-  const bool thin = thickness(shape, dimension) < 2.0 * support - 1e-9;
-  if (const auto* box = std::get_if<BoxShape>(&shape))
-    return thin ? thin_plate(faces_of(*box, dimension), spacing, layers)
-                : sample_thick(*box, spacing, layers, dimension);
+  if (const auto* cylinder = std::get_if<CylinderShape>(&shape))
+    return sample_cylinder(*cylinder, spacing, layers);
+  if (const auto* mesh = std::get_if<MeshShape>(&shape)) return sample_mesh(*mesh, spacing, layers);
+  if (const auto* compound = std::get_if<CompoundShape>(&shape))
+    return sample_compound(*compound, spacing, support, dimension);
   const auto& polygon = std::get<PolygonShape>(shape);
-  return thin ? thin_plate(faces_of(polygon, dimension), spacing, layers)
-              : sample_thick(polygon, spacing, support, layers);
+  return is_convex(polygon) ? sample_thick(polygon, spacing, support, layers)
+                            : sample_outline(polygon, spacing, layers);
+}
+
+Boundary sample_body(const Shape& shape, double spacing, double support, int dimension) {
+  if (thickness(shape, dimension) >= 2.0 * support - 1e-9)
+    return sample_thick(shape, spacing, support, dimension);
+  const int layers = layer_count(support, spacing);
+  if (const auto* box = std::get_if<BoxShape>(&shape))
+    return thin_plate(faces_of(*box, dimension), spacing, layers);
+  if (const auto* polygon = std::get_if<PolygonShape>(&shape))
+    return thin_plate(faces_of(*polygon, dimension), spacing, layers);
+  return sample_thick(shape, spacing, support, dimension);
 }
 
 }  // namespace sluice::fluid

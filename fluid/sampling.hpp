@@ -33,7 +33,7 @@ struct Tank {
 Boundary sample_walls(const Tank& tank, double spacing, double support, int dimension);
 
 // Layers inward from the shape's surface, `support` [m] deep, in the body's frame. A shape thinner than two
-// supports gets layers of its own for every face (thin-plate rule); a ball never does.
+// supports gets layers of its own for every face (thin-plate rule) if it is a box or a convex polygon.
 Boundary sample_body(const Shape& shape, double spacing, double support, int dimension);
 
 }  // namespace sluice::fluid

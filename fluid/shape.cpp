@@ -45,6 +45,23 @@ double distance_to(const PolygonShape& polygon, const Eigen::Vector3d& x, int) {
   return inside ? -nearest : nearest;
 }
 
+double distance_to(const CylinderShape& cylinder, const Eigen::Vector3d& x, int) {
+  const double along = x[cylinder.axis], across = std::sqrt(std::max(0.0, x.squaredNorm() - along * along));
+  const Eigen::Vector2d q(across - cylinder.radius, std::abs(along) - cylinder.half_length);
+  return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
+}
+
+double distance_to(const MeshShape& mesh, const Eigen::Vector3d& x, int) {
+  return mesh.surface->nearest(x).signed_distance;
+}
+
+double distance_to(const CompoundShape& compound, const Eigen::Vector3d& x, int dimension) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const PlacedShape& part : compound.parts)
+    nearest = std::min(nearest, signed_distance(part.shape, part.to_local(x), dimension));
+  return nearest;
+}
+
 double thickness_of(const BoxShape& box, int dimension) {
   return 2.0 * box.half_size.head(dimension).minCoeff();
 }
@@ -54,6 +71,7 @@ double thickness_of(const BallShape& ball, int) {
 
 // The smallest width of a convex polygon is attained perpendicular to one of its edges.
 double thickness_of(const PolygonShape& polygon, int) {
+  if (!is_convex(polygon)) return std::numeric_limits<double>::infinity();
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < polygon.vertices.size(); ++k) {
     const Eigen::Vector2d& a = polygon.vertices[k];
@@ -63,6 +81,11 @@ double thickness_of(const PolygonShape& polygon, int) {
     smallest = std::min(smallest, width);
   }
   return smallest;
+}
+
+template <typename Other>
+double thickness_of(const Other&, int) {
+  return std::numeric_limits<double>::infinity();
 }
 
 double volume_of(const BoxShape& box, int dimension) {
@@ -82,6 +105,18 @@ double volume_of(const PolygonShape& polygon, int) {
   return 0.5 * twice;
 }
 
+double volume_of(const CylinderShape& cylinder, int) {
+  return M_PI * cylinder.radius * cylinder.radius * 2 * cylinder.half_length;
+}
+double volume_of(const MeshShape& mesh, int) {
+  return mesh.surface->volume();
+}
+double volume_of(const CompoundShape& compound, int dimension) {
+  double sum = 0;
+  for (const PlacedShape& part : compound.parts) sum += volume(part.shape, dimension);
+  return sum;
+}
+
 Bounds bounds_of(const BoxShape& box, int) {
   return {-box.half_size, box.half_size};
 }
@@ -98,7 +133,41 @@ Bounds bounds_of(const PolygonShape& polygon, int) {
   return b;
 }
 
+Bounds bounds_of(const CylinderShape& cylinder, int) {
+  Eigen::Vector3d half = Eigen::Vector3d::Constant(cylinder.radius);
+  half[cylinder.axis] = cylinder.half_length;
+  return {-half, half};
+}
+Bounds bounds_of(const MeshShape& mesh, int) {
+  Bounds b{mesh.surface->vertices().front(), mesh.surface->vertices().front()};
+  for (const Eigen::Vector3d& v : mesh.surface->vertices()) b = {b.min.cwiseMin(v), b.max.cwiseMax(v)};
+  return b;
+}
+// Of the parts' own boxes, turned: not the smallest.
+Bounds bounds_of(const CompoundShape& compound, int dimension) {
+  Eigen::AlignedBox3d whole;
+  for (const PlacedShape& part : compound.parts) {
+    const Bounds own = bounds(part.shape, dimension);
+    for (int corner = 0; corner < 8; ++corner) {
+      Eigen::Vector3d x = own.min;
+      for (int a = 0; a < 3; ++a)
+        if ((corner >> a) % 2 == 1) x[a] = own.max[a];
+      whole.extend(part.position + part.orientation * x);
+    }
+  }
+  return {whole.min(), whole.max()};
+}
+
 }  // namespace
+
+bool is_convex(const PolygonShape& polygon) {
+  const auto& v = polygon.vertices;
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    const Eigen::Vector2d in = v[k] - v[(k + v.size() - 1) % v.size()], out = v[(k + 1) % v.size()] - v[k];
+    if (in.x() * out.y() - in.y() * out.x() < -1e-12 * in.norm() * out.norm()) return false;
+  }
+  return true;
+}
 
 double signed_distance(const Shape& shape, const Eigen::Vector3d& x, int dimension) {
   return std::visit([&](const auto& s) { return distance_to(s, x, dimension); }, shape);

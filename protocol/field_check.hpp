@@ -40,11 +40,16 @@ class FieldCheck {
 
 // The parts of check_fields.
 void check_numbers(const google::protobuf::Message& message, const std::string& prefix, FieldCheck& check);
-void check_polygon(const Polygon& polygon, bool convex, const std::string& field, FieldCheck& check);
+void check_polygon(const Polygon& polygon, const std::string& field, FieldCheck& check);
 void check_formulation(const Scene& scene, FieldCheck& check);
 void check_domain(const Scene& scene, FieldCheck& check);
 void check_fluid(const FluidRegion& region, const std::string& field, FieldCheck& check);
 void check_bodies(const Scene& scene, FieldCheck& check);
+void check_body_shape(const Body& body, const std::string& field, FieldCheck& check);
+// A rotation: by angle in two dimensions, by a quaternion in three.
+void check_turn(double angle, const Vector& orientation, const std::string& field, FieldCheck& check);
+void check_joints(const Scene& scene, FieldCheck& check);
+void check_contact(const Contact& contact, const std::string& field, FieldCheck& check);
 void check_motion(const Motion& motion, const std::string& field, FieldCheck& check);
 void check_counts(const Scene& scene, FieldCheck& check);
 

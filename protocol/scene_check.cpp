@@ -102,6 +102,8 @@ std::vector<Problem> check_fields(const Scene& scene) {
     check_domain(scene, check);
     check_regions(scene, check);
     check_bodies(scene, check);
+    check_joints(scene, check);
+    check_contact(scene.contact(), "contact", check);
   } else {
     check.report("dimension", fmt::format("{} is neither 2 nor 3; give one of them", scene.dimension()));
   }

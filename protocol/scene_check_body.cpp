@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "protocol/body_kind.hpp"
 #include "protocol/field_check.hpp"
 
 namespace sluice::protocol {
@@ -11,7 +12,15 @@ namespace {
 
 constexpr int kMostBodies = 1000;
 constexpr std::size_t kLongestName = 64;
-constexpr double kUnitTolerance = 1e-6;
+
+// Whether the matrix is positive definite.
+bool is_possible(const Vector& inertia) {
+  if (inertia.size() < 6) return true;
+  const double xx = inertia[0], yy = inertia[1], zz = inertia[2], xy = inertia[3], xz = inertia[4],
+               yz = inertia[5];
+  return xx * yy > xy * xy &&
+         xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz) > 0;
+}
 
 // Names become parts of HDF5 paths, where "/" and "." have a meaning.
 bool usable_name(const std::string& name) {
@@ -31,23 +40,6 @@ void check_name(const Body& body, const std::string& field, std::map<std::string
                  fmt::format("\"{}\" is the name of {} too; names must differ", body.name(), first->second));
 }
 
-void check_shape(const Body& body, const std::string& field, FieldCheck& check) {
-  switch (body.shape_case()) {
-    case Body::kBox:
-      if (!check.vector(body.box().size(), field + ".box.size", "the box's edge lengths")) return;
-      for (int a = 0; a < check.dimension(); ++a)
-        check.positive(body.box().size(a), fmt::format("{}.box.size[{}]", field, a), "m",
-                       "give the length of the edge");
-      return;
-    case Body::kBall:
-      return check.positive(body.ball().radius(), field + ".ball.radius", "m", "give the ball's radius");
-    case Body::kPolygon:
-      return check_polygon(body.polygon(), true, field + ".polygon", check);
-    case Body::SHAPE_NOT_SET:
-      check.report(field, "has no shape; give box, ball or polygon");
-  }
-}
-
 void check_mass(const Body& body, const std::string& field, FieldCheck& check) {
   if (body.has_density())
     check.positive(body.density(), field + ".density", "kg/m^3", "give the body's density, water is 1000");
@@ -56,23 +48,28 @@ void check_mass(const Body& body, const std::string& field, FieldCheck& check) {
                    "give the body's mass");
   if (body.has_density() && body.has_mass())
     check.report(field + ".mass", "density is given too; leave one of them out");
-  if (!body.has_density() && !body.has_mass() && !body.has_prescribed())
+  if (body.has_density() || body.has_mass() || !is_ever_free(body)) return;
+  if (body.has_prescribed())
+    check.report(field + ".prescribed.release",
+                 "makes the body free, which has neither density nor mass; give one");
+  else
     check.report(field, "is free and has neither density nor mass; give one, or a prescribed motion");
 }
 
-void check_orientation(const Body& body, const std::string& field, FieldCheck& check) {
-  if (check.dimension() == 3 && body.angle() != 0)
-    check.report(field + ".angle", "is for two dimensions; give orientation, a unit quaternion w x y z");
-  const Vector& q = body.orientation();
-  if (q.empty()) return;
-  const std::string path = field + ".orientation";
-  if (check.dimension() == 2) return check.report(path, "is for three dimensions; give angle [rad]");
-  if (q.size() != 4)
-    return check.report(path, fmt::format("{} entries; a quaternion w x y z has 4", q.size()));
-  const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  if (std::abs(norm - 1) > kUnitTolerance)
-    check.report(path, fmt::format("has length {}; a rotation is a quaternion of length 1 within {}", norm,
-                                   kUnitTolerance));
+void check_inertia(const Body& body, const std::string& field, FieldCheck& check) {
+  check.optional_vector(body.center_of_mass(), field + ".center_of_mass", "the centre of mass");
+  const Vector& inertia = body.inertia();
+  if (inertia.empty()) return;
+  const std::string path = field + ".inertia";
+  const bool fits = check.dimension() == 2 ? inertia.size() == 1 : inertia.size() == 3 || inertia.size() == 6;
+  if (!fits)
+    return check.report(
+        path, fmt::format("{} entries; give {}", inertia.size(),
+                          check.dimension() == 2 ? "one, about z" : "xx, yy, zz, or those and xy, xz, yz"));
+  for (int i = 0; i < std::min(inertia.size(), 3); ++i)
+    check.positive(inertia[i], fmt::format("{}[{}]", path, i), "kg m^2", "give the moment of inertia");
+  if (!is_possible(inertia))
+    check.report(path, "belongs to no body: its determinant or a principal minor is not positive");
 }
 
 void check_initial_motion(const Body& body, const std::string& field, FieldCheck& check) {
@@ -87,6 +84,24 @@ void check_initial_motion(const Body& body, const std::string& field, FieldCheck
   }
 }
 
+void check_locks(const Body& body, const std::string& field, FieldCheck& check) {
+  const auto check_axes = [&](const auto& axes, const std::string& path, bool turns) {
+    for (int i = 0; i < axes.size(); ++i) {
+      const std::string entry = fmt::format("{}[{}]", path, i);
+      const bool in_plane = turns ? axes[i] == Z_AXIS : axes[i] == X_AXIS || axes[i] == Y_AXIS;
+      if (axes[i] == AXIS_UNSPECIFIED)
+        check.report(entry, "is no axis; give X_AXIS, Y_AXIS or Z_AXIS");
+      else if (check.dimension() == 2 && !in_plane)
+        check.report(entry, turns ? "does not exist in two dimensions, where bodies turn about Z_AXIS"
+                                  : "does not exist in two dimensions; remove it");
+    }
+    if (!axes.empty() && !is_ever_free(body))
+      check.report(path, "is for free bodies; the motion of this one is prescribed, remove it");
+  };
+  check_axes(body.locked(), field + ".locked", false);
+  check_axes(body.locked_rotation(), field + ".locked_rotation", true);
+}
+
 }  // namespace
 
 void check_bodies(const Scene& scene, FieldCheck& check) {
@@ -96,11 +111,14 @@ void check_bodies(const Scene& scene, FieldCheck& check) {
     const Body& body = scene.body(i);
     const std::string field = fmt::format("body[{}]", i);
     check_name(body, field, names, check);
-    check_shape(body, field, check);
+    check_body_shape(body, field, check);
     check_mass(body, field, check);
     check.vector(body.position(), field + ".position", "the position of the centre of mass");
-    check_orientation(body, field, check);
+    check_turn(body.angle(), body.orientation(), field, check);
+    check_inertia(body, field, check);
+    check_contact(body.contact(), field + ".contact", check);
     check_initial_motion(body, field, check);
+    check_locks(body, field, check);
     if (body.has_prescribed()) check_motion(body.prescribed(), field + ".prescribed", check);
   }
 }

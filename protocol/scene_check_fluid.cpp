@@ -57,7 +57,7 @@ void check_crossings(const Polygon& polygon, const std::string& field, FieldChec
 }
 
 // False when a corner is wrong in itself; its sides then meet others, which says nothing new.
-bool check_corners(const Polygon& polygon, bool convex, const std::string& field, FieldCheck& check) {
+bool check_corners(const Polygon& polygon, const std::string& field, FieldCheck& check) {
   const std::size_t before_all = check.problems().size();
   const int n = polygon.vertex_size();
   for (int i = 0; i < n; ++i) {
@@ -72,8 +72,6 @@ bool check_corners(const Polygon& polygon, bool convex, const std::string& field
       check.report(corner, fmt::format("equals the next, ({}, {}); remove one", here.x(), here.y()));
     else if (turn == 0 && ahead < 0)
       check.report(corner, "the sides double back on themselves; remove the vertex");
-    else if (convex && turn < 0)
-      check.report(corner, "the corner points inward; a body's polygon must be convex");
   }
   return check.problems().size() == before_all;
 }
@@ -114,7 +112,7 @@ void check_start(const FluidRegion& region, const std::string& field, FieldCheck
 
 }  // namespace
 
-void check_polygon(const Polygon& polygon, bool convex, const std::string& field, FieldCheck& check) {
+void check_polygon(const Polygon& polygon, const std::string& field, FieldCheck& check) {
   const int n = polygon.vertex_size();
   if (check.dimension() != 2)
     return check.report(field, "polygons exist in two dimensions only; use a box or a ball");
@@ -125,7 +123,7 @@ void check_polygon(const Polygon& polygon, bool convex, const std::string& field
     twice_area += cross(polygon.vertex(0), vertex(polygon, i), vertex(polygon, i + 1));
   if (twice_area == 0) return check.report(field, "has no area; give vertices that are not all in line");
   if (twice_area < 0) return check.report(field, "runs clockwise; give the vertices counter-clockwise");
-  if (check_corners(polygon, convex, field, check)) check_crossings(polygon, field, check);
+  if (check_corners(polygon, field, check)) check_crossings(polygon, field, check);
 }
 
 void check_fluid(const FluidRegion& region, const std::string& field, FieldCheck& check) {
@@ -147,7 +145,7 @@ void check_fluid(const FluidRegion& region, const std::string& field, FieldCheck
       check.positive(region.ball().radius(), field + ".ball.radius", "m", "give the ball's radius");
       return;
     case FluidRegion::kPolygon:
-      return check_polygon(region.polygon(), false, field + ".polygon", check);
+      return check_polygon(region.polygon(), field + ".polygon", check);
     case FluidRegion::SHAPE_NOT_SET:
       check.report(field, "has no shape; give box, ball or polygon");
   }

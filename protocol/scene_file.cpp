@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "protocol/scene_check.hpp"
+#include "protocol/scene_files.hpp"
 #include "protocol/scene_parse.hpp"
 
 namespace sluice::protocol {
@@ -75,6 +76,7 @@ SceneFile SceneFile::load(const std::filesystem::path& path, const std::vector<s
   const bool json = path.extension() == ".json";
   ParsedScene parsed = json ? parse_json(text, path.string()) : parse_text(text, path.string());
   for (const auto& assignment : overrides) apply_override(assignment, parsed);
+  if (parsed.complete) read_named_files(path, parsed);
 
   SceneFile result;
   result.file_ = path.string();

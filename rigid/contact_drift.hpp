@@ -19,6 +19,9 @@ class ContactDrift {
   ContactDrift(const ContactDrift&) = delete;
   ContactDrift& operator=(const ContactDrift&) = delete;
 
+  // Body `b`, prescribed so far, is free from now on.
+  void release(std::size_t b, const FreeBody& free);
+
   // In: poses at the start of the step and velocities over it. Out: for free bodies, the pose at its end and
   // the velocities after contact.
   void step(double dt, std::span<FreeBody::Drift> bodies);

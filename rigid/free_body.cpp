@@ -13,6 +13,17 @@ Eigen::Vector3d lasting(const Eigen::Vector3d& before, const Eigen::Vector3d& no
   });
 }
 
+Eigen::Vector3d unlocked(const std::array<bool, 3>& locked, Eigen::Vector3d axes) {
+  for (int a = 0; a < 3; ++a)
+    if (locked[static_cast<std::size_t>(a)]) axes[a] = 0;
+  return axes;
+}
+
+Eigen::Matrix3d homogeneous_inertia(const BodySpec& spec, int dimension) {
+  const Solid homogeneous = solid(spec.shape, dimension);
+  return (spec.mass / homogeneous.volume * homogeneous.inertia).asDiagonal();
+}
+
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& q) {
   const double sine = q.vec().norm();
   if (sine == 0) return Eigen::Vector3d::Zero();
@@ -30,18 +41,15 @@ Eigen::Vector3d above_round_off(const Eigen::Vector3d& v, double scale) {
 
 FreeBody::FreeBody(const BodySpec& spec, const Eigen::Vector3d& gravity, int dimension)
     : mass_(spec.mass), gravity_(gravity), pose_(spec.pose), velocity_(spec.velocity) {
-  const bool planar = dimension == 2;
-  free_axes_ = planar ? Eigen::Vector3d(1, 1, 0) : Eigen::Vector3d::Ones();
-  free_turns_ = planar ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d::Ones();
-  const Solid homogeneous = solid(spec.shape, dimension);
-  inertia_ = mass_ / homogeneous.volume * homogeneous.inertia;
-  inverse_inertia_ =
-      planar ? Eigen::Vector3d(0, 0, 1 / inertia_.z()) : Eigen::Vector3d(inertia_.cwiseInverse());
+  const double space = dimension == 3 ? 1 : 0;
+  free_axes_ = unlocked(spec.locked, {1, 1, space});
+  free_turns_ = unlocked(spec.locked_rotation, {space, space, 1});
+  inertia_ = spec.inertia ? *spec.inertia : homogeneous_inertia(spec, dimension);
+  if (free_turns_ == Eigen::Vector3d::Ones()) inverse_inertia_ = inertia_.inverse();
   gravity_ = gravity_.cwiseProduct(free_axes_);
   velocity_ = velocity_.cwiseProduct(free_axes_);
-  const Eigen::Quaterniond& q = pose_.orientation;
-  angular_momentum_ =
-      q * inertia_.cwiseProduct(q.conjugate() * spec.angular_velocity.cwiseProduct(free_turns_));
+  angular_momentum_ = angular_momentum(pose_.orientation, spec.angular_velocity.cwiseProduct(free_turns_))
+                          .cwiseProduct(free_turns_);
 }
 
 void FreeBody::set_wrench(const Wrench& wrench) {
@@ -49,19 +57,60 @@ void FreeBody::set_wrench(const Wrench& wrench) {
   wrench_.moment = wrench.moment.cwiseProduct(free_turns_);
 }
 
+void FreeBody::set_load(const Wrench& load) {
+  load_.force = load.force.cwiseProduct(free_axes_);
+  load_.moment = load.moment.cwiseProduct(free_turns_);
+}
+
 void FreeBody::kick(double dt) {
   velocity_ += dt * acceleration();
-  angular_momentum_ += dt * wrench_.moment;
+  angular_momentum_ += dt * (wrench_.moment + load_.moment);
 }
 
-Eigen::Vector3d FreeBody::angular_velocity(const Eigen::Quaterniond& q) const {
-  return q * inverse_inertia_.cwiseProduct(q.conjugate() * angular_momentum_);
+void FreeBody::apply_joint(const Wrench& impulse) {
+  velocity_ += impulse.force.cwiseProduct(free_axes_) / mass_;
+  angular_momentum_ += impulse.moment.cwiseProduct(free_turns_);
+  joint_impulse_.force += impulse.force;
+  joint_impulse_.moment += impulse.moment;
 }
 
+void FreeBody::note_joint_impulse(double dt) {
+  const Response changed = response(joint_impulse_);
+  by_joints_ = changed.velocity / dt;
+  turned_by_joints_ = changed.angular_velocity / dt;
+}
+
+FreeBody::Response FreeBody::response(const Wrench& impulse) const {
+  return {impulse.force.cwiseProduct(free_axes_) / mass_,
+          turn_of(pose_.orientation, impulse.moment.cwiseProduct(free_turns_))};
+}
+
+Pose FreeBody::drifted(double dt, const Eigen::Vector3d& velocity, const Eigen::Vector3d& turn) const {
+  return {pose_.position + dt * (velocity_ + velocity),
+          (rotation(dt * (drift_angular_velocity(dt) + turn)) * pose_.orientation).normalized()};
+}
+
+Eigen::Vector3d FreeBody::angular_momentum(const Eigen::Quaterniond& q,
+                                           const Eigen::Vector3d& angular_velocity) const {
+  return q * (inertia_ * (q.conjugate() * angular_velocity));
+}
+
+// With P the projection on the free axes:  P I P w = P L. The torques of the locks are about the others.
+Eigen::Vector3d FreeBody::turn_of(const Eigen::Quaterniond& q,
+                                  const Eigen::Vector3d& angular_momentum) const {
+  if (free_turns_ == Eigen::Vector3d::Ones())
+    return q * (inverse_inertia_ * (q.conjugate() * angular_momentum));
+  const Eigen::Matrix3d R = q.toRotationMatrix(), I = R * inertia_ * R.transpose();
+  Eigen::Matrix3d free = free_turns_.asDiagonal() * I * free_turns_.asDiagonal();
+  free += Eigen::Matrix3d((Eigen::Vector3d::Ones() - free_turns_).asDiagonal());
+  return (free.inverse() * angular_momentum.cwiseProduct(free_turns_)).cwiseProduct(free_turns_);
+}
+
+// I dw/dt = T - w x I w
 Eigen::Vector3d FreeBody::angular_acceleration() const {
   const Eigen::Quaterniond& q = pose_.orientation;
-  const Eigen::Vector3d torque = wrench_.moment - angular_velocity(q).cross(angular_momentum_);
-  return q * inverse_inertia_.cwiseProduct(q.conjugate() * torque);
+  const Eigen::Vector3d omega = angular_velocity(q);
+  return turn_of(q, wrench_.moment + load_.moment - omega.cross(angular_momentum(q, omega)));
 }
 
 Eigen::Vector3d FreeBody::drift_angular_velocity(double dt) const {
@@ -79,12 +128,13 @@ Eigen::Vector3d FreeBody::drift_angular_velocity(double dt) const {
 Kinematics FreeBody::finish_drift(double dt, const Drift& before, const Drift& after) {
   const Eigen::Quaterniond& q = before.pose.orientation;
   const Eigen::Vector3d turned = after.angular_velocity - before.angular_velocity;
-  const Eigen::Vector3d impulse = q * inertia_.cwiseProduct(q.conjugate() * turned);
+  const Eigen::Vector3d impulse = angular_momentum(q, turned);
   const Eigen::Vector3d contact = (after.velocity - before.velocity) / dt, angular_contact = turned / dt;
 
   Kinematics step;
-  step.acceleration = acceleration() + lasting(contact_, contact);
-  step.angular_acceleration = angular_acceleration() + lasting(angular_contact_, angular_contact);
+  step.acceleration = acceleration() + by_joints_ + lasting(contact_, contact);
+  step.angular_acceleration =
+      angular_acceleration() + turned_by_joints_ + lasting(angular_contact_, angular_contact);
   contact_ = contact;
   angular_contact_ = angular_contact;
 

@@ -55,6 +55,32 @@ struct Key {
 // increase strictly from a first one at or after 0.
 MotionPtr keyframe_motion(std::vector<Key> keys);
 
+// Offset amplitude * r(tau / build_up) * sin(2 pi frequency tau), tau = t - start, with the smooth step r of
+// Ramp, or 1 where build_up is 0; at rest before the start.
+struct Sinusoid {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // amplitude [m]
+  double angle = 0;                                    // amplitude about z [rad]
+  double frequency = 0;                                // [1/s]
+  double start = 0, build_up = 0;                      // [s]
+};
+MotionPtr sinusoid_motion(const Sinusoid& sinusoid);
+
+// Offset end * r(s), r(s) = 10 s^3 - 15 s^4 + 6 s^5, s from 0 to 1 over the duration: rest to rest with
+// continuous acceleration.
+struct Ramp {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // at the end [m]
+  double angle = 0;                                    // at the end, about z [rad]
+  double start = 0, duration = 0;                      // [s]
+};
+MotionPtr ramp_motion(const Ramp& ramp);
+
+// The same motion with its rotation about z turned to be about `axis` (a unit vector).
+MotionPtr about_axis(MotionPtr motion, const Eigen::Vector3d& axis);
+
+// The same motion with its rotation about a point: `arm` leads from there to the centre of mass at time 0
+// [m].
+MotionPtr about_pivot(MotionPtr motion, const Eigen::Vector3d& arm);
+
 // Formulas of t [s]; empty: zero. x, y, z in m, angle about z in rad.
 struct Formulas {
   std::string x, y, z, angle;

@@ -29,6 +29,16 @@ Eigen::Vector2d centroid(const Vertices& vertices) {
   return origin + moment / (3 * twice_area);
 }
 
+bool is_convex(const Vertices& vertices) {
+  const std::size_t n = vertices.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector2d in = vertices[i] - vertices[(i + n - 1) % n],
+                          out = vertices[(i + 1) % n] - vertices[i];
+    if (cross(in, out) < -1e-12 * in.norm() * out.norm()) return false;
+  }
+  return true;
+}
+
 double polar_moment(const Vertices& vertices) {
   double sum = 0;
   for_each_edge(vertices, [&](const auto& a, const auto& b) {

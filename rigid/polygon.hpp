@@ -17,6 +17,8 @@ using Vertices = std::vector<Eigen::Vector2d>;
 // Negative for clockwise polygons.
 double area(const Vertices& vertices);
 Eigen::Vector2d centroid(const Vertices& vertices);
+// Whether no corner turns to the right.
+bool is_convex(const Vertices& vertices);
 // Integral of |x|^2 about the origin [m^4].
 double polar_moment(const Vertices& vertices);
 

@@ -59,6 +59,20 @@ Solid solid_of(const Polygon& polygon, int) {
   return {area(polygon.vertices), {0, 0, polar_moment(polygon.vertices)}};
 }
 
+Solid solid_of(const Cylinder& cylinder, int) {
+  const double r2 = cylinder.radius * cylinder.radius, length = 2 * cylinder.half_length;
+  const double volume = std::numbers::pi * r2 * length;
+  Eigen::Vector3d inertia = Eigen::Vector3d::Constant(volume * (3 * r2 + length * length) / 12);
+  inertia[cylinder.axis] = volume * r2 / 2;
+  return {volume, inertia};
+}
+Solid solid_of(const Mesh&, int) {
+  throw std::logic_error("the mass of a mesh is given, not found here");
+}
+Solid solid_of(const Compound&, int) {
+  throw std::logic_error("the mass of a compound is given, not found here");
+}
+
 double radius_of(const Box& box, int dimension) {
   return dimension == 2 ? box.half_size.head<2>().norm() : box.half_size.norm();
 }
@@ -69,6 +83,52 @@ double radius_of(const Polygon& polygon, int) {
   double radius = 0;
   for (const auto& vertex : polygon.vertices) radius = std::max(radius, vertex.norm());
   return radius;
+}
+
+double radius_of(const Cylinder& cylinder, int) {
+  return std::hypot(cylinder.radius, cylinder.half_length);
+}
+double radius_of(const Mesh& mesh, int) {
+  double radius = 0;
+  for (const auto& vertex : mesh.vertices) radius = std::max(radius, vertex.norm());
+  return radius;
+}
+double radius_of(const Compound& compound, int dimension) {
+  double radius = 0;
+  for (const Placed& part : compound.parts)
+    radius = std::max(radius, part.pose.position.norm() + bounding_radius(part.shape, dimension));
+  return radius;
+}
+
+double surface_of(const Box& box, int dimension) {
+  const Eigen::Vector3d size = 2 * box.half_size;
+  if (dimension == 2) return 2 * (size.x() + size.y());
+  return 2 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+}
+double surface_of(const Ball& ball, int dimension) {
+  return (dimension == 2 ? 2 : 4 * ball.radius) * std::numbers::pi * ball.radius;
+}
+double surface_of(const Polygon& polygon, int) {
+  const Vertices& v = polygon.vertices;
+  double length = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) length += (v[(i + 1) % v.size()] - v[i]).norm();
+  return length;
+}
+double surface_of(const Cylinder& cylinder, int) {
+  return 2 * std::numbers::pi * cylinder.radius * (cylinder.radius + 2 * cylinder.half_length);
+}
+double surface_of(const Mesh& mesh, int) {
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3d& x = mesh.vertices[a];
+    area += (mesh.vertices[b] - x).cross(mesh.vertices[c] - x).norm() / 2;
+  }
+  return area;
+}
+double surface_of(const Compound& compound, int dimension) {
+  double sum = 0;
+  for (const Placed& part : compound.parts) sum += surface(part.shape, dimension);
+  return sum;
 }
 
 double thickness_of(const Box& box, int dimension) {
@@ -90,7 +150,30 @@ double thickness_of(const Polygon& polygon, int) {
   return smallest;
 }
 
+double thickness_of(const Cylinder& cylinder, int) {
+  return 2 * std::min(cylinder.radius, cylinder.half_length);
+}
+double thickness_of(const Mesh& mesh, int) {
+  Eigen::Vector3d low = mesh.vertices.front(), high = low;
+  for (const auto& vertex : mesh.vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  return (high - low).minCoeff();
+}
+double thickness_of(const Compound& compound, int dimension) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Placed& part : compound.parts)  // polygons are pieces of an outline that may be wide
+    if (!std::holds_alternative<Polygon>(part.shape))
+      least = std::min(least, thickness(part.shape, dimension));
+  return least;
+}
+
 }  // namespace
+
+Pose in_world(const Pose& body, const Pose& part) {
+  return {body.position + body.orientation * part.position, body.orientation * part.orientation};
+}
 
 Eigen::Quaterniond rotation(const Eigen::Vector3d& r) {
   const double angle = r.norm();
@@ -111,6 +194,10 @@ Solid solid(const Shape& shape, int dimension) {
 
 double bounding_radius(const Shape& shape, int dimension) {
   return std::visit([&](const auto& s) { return radius_of(s, dimension); }, shape);
+}
+
+double surface(const Shape& shape, int dimension) {
+  return std::visit([&](const auto& s) { return surface_of(s, dimension); }, shape);
 }
 
 double thickness(const Shape& shape, int dimension) {

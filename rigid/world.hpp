@@ -1,16 +1,26 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "rigid/joint.hpp"
 #include "rigid/kinematics.hpp"
 #include "rigid/motion.hpp"
 #include "rigid/shape.hpp"
 
 namespace sluice::rigid {
+
+// How a body or wall touches others: of two, the geometric mean of the frictions and the larger restitution
+// count.
+struct Contact {
+  double friction = 0.3;   // Coulomb coefficient [-]
+  double restitution = 0;  // normal speed after an impact over that before, 0 to 1 [-]
+};
 
 struct BodySpec {
   std::string name;
@@ -18,9 +28,15 @@ struct BodySpec {
   Pose pose;  // at time 0
   // Of a free body: mass [kg] (per metre of depth in two dimensions) and twist at time 0 [m/s], [rad/s].
   double mass = 0;
+  // About the centre of mass, in the body's frame [kg m^2]; without it that of a homogeneous body.
+  std::optional<Eigen::Matrix3d> inertia;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
-  MotionPtr motion;  // prescribed; null: free
+  Contact contact;
+  std::array<bool, 3> locked{}, locked_rotation{};  // world axes along, about which a free body does not move
+  MotionPtr motion;                                 // prescribed; null: free
+  // With a motion: from the first step that begins at or after this time on the body is free [s].
+  double release = std::numeric_limits<double>::infinity();
 };
 
 // Walls on the closed sides of a box. A wall is a whole plane: it goes on beyond the corners of the box.
@@ -33,7 +49,8 @@ struct WorldSpec {
   int dimension = 2;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // [m/s^2]
   Tank tank;
-  double friction = 0.3;  // Coulomb coefficient between bodies and with walls [-]; contact is inelastic
+  Contact contact;  // of the walls
+  std::vector<JointSpec> joints;
   std::vector<BodySpec> bodies;
 };
 
@@ -60,8 +77,10 @@ class World {
   void correct(double dt, std::span<const Wrench> wrenches);
 
   [[nodiscard]] std::size_t size() const;
+  // Now or later.
   [[nodiscard]] bool has_free_bodies() const;
-  // State at the end of the last whole step, with the velocities at that instant. For free bodies.
+  // State at the end of the last whole step, with the velocities at that instant. For bodies that are free by
+  // then.
   [[nodiscard]] Kinematics state(std::size_t body) const;
   // Kinetic energy of a free body at the end of the last whole step [J].
   [[nodiscard]] double kinetic_energy(std::size_t body) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "protocol/mass_properties.hpp"
+
 namespace sluice::server {
 
 namespace {
@@ -13,18 +15,40 @@ std::vector<Eigen::Vector2d> vertices(const Polygon& polygon) {
   return result;
 }
 
-// Centre of a polygon's area.
-Eigen::Vector2d centroid(const std::vector<Eigen::Vector2d>& vertex) {
-  double twice_area = 0;
-  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
-  // Relative to the first vertex, which keeps digits for a polygon far from the origin.
-  for (std::size_t i = 1; i + 1 < vertex.size(); ++i) {
-    const Eigen::Vector2d a = vertex[i] - vertex[0], b = vertex[i + 1] - vertex[0];
-    const double cross = a.x() * b.y() - a.y() * b.x();
-    twice_area += cross;
-    moment += cross * (a + b);
+fluid::MeshShape to_mesh(const Mesh& mesh) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<fluid::TriangleSurface::Triangle> triangles;
+  for (int v = 0; v + 2 < mesh.vertex_size(); v += 3)
+    points.emplace_back(mesh.vertex(v), mesh.vertex(v + 1), mesh.vertex(v + 2));
+  for (int t = 0; t + 2 < mesh.triangle_size(); t += 3)
+    triangles.push_back({mesh.triangle(t), mesh.triangle(t + 1), mesh.triangle(t + 2)});
+  return {std::make_shared<fluid::TriangleSurface>(std::move(points), std::move(triangles))};
+}
+
+// In the frame that the shape is given in.
+template <typename WithShape>
+fluid::Shape simple_shape(const WithShape& body) {
+  if (body.has_ball()) return fluid::BallShape{body.ball().radius()};
+  if (body.has_polygon()) return fluid::PolygonShape{vertices(body.polygon())};
+  if (body.has_cylinder()) {
+    const Cylinder& cylinder = body.cylinder();
+    const int axis = cylinder.axis() == AXIS_UNSPECIFIED ? 2 : cylinder.axis() - X_AXIS;
+    return fluid::CylinderShape{cylinder.radius(), cylinder.length() / 2, axis};
   }
-  return vertex[0] + moment / (3 * twice_area);
+  if (body.has_mesh()) return to_mesh(body.mesh());
+  return fluid::BoxShape{to_vector(body.box().size()) / 2};
+}
+
+fluid::CompoundShape to_compound(const Compound& compound, int dimension) {
+  fluid::CompoundShape result;
+  for (const Part& part : compound.part()) {
+    fluid::PlacedShape placed{simple_shape(part), to_vector(part.position()), Eigen::Quaterniond::Identity()};
+    const auto& q = part.orientation();
+    if (dimension == 2) placed.orientation = Eigen::AngleAxisd(part.angle(), Eigen::Vector3d::UnitZ());
+    if (q.size() == 4) placed.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+    result.parts.push_back(std::move(placed));
+  }
+  return result;
 }
 
 }  // namespace
@@ -48,23 +72,24 @@ Region to_region(const FluidRegion& region) {
   }
 }
 
-fluid::Shape to_shape(const Body& body) {
-  switch (body.shape_case()) {
-    case Body::kBall:
-      return fluid::BallShape{body.ball().radius()};
-    case Body::kPolygon: {
-      std::vector<Eigen::Vector2d> vertex = vertices(body.polygon());
-      const Eigen::Vector2d center = centroid(vertex);
-      for (Eigen::Vector2d& v : vertex) v -= center;
-      return fluid::PolygonShape{std::move(vertex)};
-    }
-    default:
-      return fluid::BoxShape{to_vector(body.box().size()) / 2};
+fluid::Shape to_shape(const Body& body, int dimension) {
+  const Eigen::Vector3d center = protocol::mass_properties(body, dimension).center;
+  if (body.has_compound()) {
+    fluid::CompoundShape compound = to_compound(body.compound(), dimension);
+    for (fluid::PlacedShape& part : compound.parts) part.position -= center;
+    return compound;
   }
+  fluid::Shape shape = simple_shape(body);
+  if (auto* polygon = std::get_if<fluid::PolygonShape>(&shape)) {
+    for (Eigen::Vector2d& vertex : polygon->vertices) vertex -= center.head<2>();
+    return shape;
+  }
+  if (center.isZero(0)) return shape;
+  return fluid::CompoundShape{{{std::move(shape), -center, Eigen::Quaterniond::Identity()}}};
 }
 
 double mass(const Body& body, int dimension) {
-  return body.has_mass() ? body.mass() : body.density() * fluid::volume(to_shape(body), dimension);
+  return protocol::mass_properties(body, dimension).mass;
 }
 
 fluid::Kinematics initial_kinematics(const Body& body, int dimension) {

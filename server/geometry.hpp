@@ -17,7 +17,7 @@ struct Region {
 Region to_region(const FluidRegion& region);
 
 // A body's shape about its centre of mass.
-fluid::Shape to_shape(const Body& body);
+fluid::Shape to_shape(const Body& body, int dimension);
 
 // Given, or of a homogeneous body [kg]; per metre of depth in two dimensions.
 double mass(const Body& body, int dimension);
@@ -29,7 +29,7 @@ fluid::Kinematics initial_kinematics(const Body& body, int dimension);
 double distance(const fluid::Shape& shape, const fluid::Kinematics& pose, const Eigen::Vector3d& x,
                 int dimension);
 
-// Largest value of direction.x over the shape about its own origin [m].
+// Largest value of direction.x over a region's shape about its own origin [m].
 double support(const fluid::Shape& shape, const Eigen::Vector3d& direction);
 
 }  // namespace sluice::server

@@ -114,7 +114,7 @@ class Filling {
   void cut_bodies(std::vector<Particle>& particles) const {
     for (int b = 0; b < scene_.body_size(); ++b) {
       const Body& body = scene_.body(b);
-      const fluid::Shape shape = to_shape(body);
+      const fluid::Shape shape = to_shape(body, dimension_);
       const fluid::Kinematics pose = initial_kinematics(body, dimension_);
       const double clearance = (body.displaces_fluid() ? kCut : kTooNear) * scene_.spacing();
       // The tolerance keeps a lattice that touches the body from losing a layer to round-off.

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "fluid/sampling.hpp"
+#include "protocol/body_kind.hpp"
 #include "protocol/scene_check.hpp"
 #include "server/formulation.hpp"
 #include "server/geometry.hpp"
@@ -59,16 +60,16 @@ fluid::Setup to_setup(const Scene& scene, int threads) {
   setup.period = to_period(tank);
   setup.walls = fluid::sample_walls(tank, setup.spacing, support, setup.dimension);
   for (const Body& body : scene.body()) {
-    setup.bodies.push_back(fluid::sample_body(to_shape(body), setup.spacing, support, setup.dimension));
+    setup.bodies.push_back(
+        fluid::sample_body(to_shape(body, setup.dimension), setup.spacing, support, setup.dimension));
     setup.bodies.back().no_slip = body.surface() == NO_SLIP;
-    if (!body.has_prescribed()) setup.bodies.back().free_mass = mass(body, setup.dimension);
+    if (protocol::is_ever_free(body)) setup.bodies.back().free_mass = mass(body, setup.dimension);
   }
   return setup;
 }
 
 bool Simulation::has_free_body() const {
-  return std::any_of(scene.body().begin(), scene.body().end(),
-                     [](const Body& b) { return !b.has_prescribed(); });
+  return protocol::is_any_body_ever_free(scene);
 }
 
 std::size_t Simulation::boundary_particles() const {

@@ -17,7 +17,8 @@ void check_thickness(const BodyLayout& body, const Layout& layout, Findings& fin
         fmt::format("body '{}' is {:.4g} m thick, thinner than one particle spacing of {:g} m; make "
                     "it thicker or the spacing smaller",
                     body.name, width, layout.spacing));
-  } else if (std::holds_alternative<rigid::Ball>(body.placed.shape)) {
+  } else if (!std::holds_alternative<rigid::Box>(body.placed.shape) &&
+             !std::holds_alternative<rigid::Polygon>(body.placed.shape)) {
     if (width < support)
       findings.warning(
           body.field,
@@ -31,6 +32,22 @@ void check_thickness(const BodyLayout& body, const Layout& layout, Findings& fin
                     "thin-plate rule keeps its sides apart; nothing to do unless its edges matter",
                     body.name, width, support));
   }
+}
+
+void check_parts(const BodyLayout& body, const Layout& layout, Findings& findings) {
+  const auto* compound = std::get_if<rigid::Compound>(&body.placed.shape);
+  if (compound == nullptr) return;
+  const std::vector<Placed>& parts = compound->parts;
+  for (std::size_t a = 0; a < parts.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const double depth = penetration({parts[a]}, {parts[b]}, layout.dimension);
+      if (depth > layout.tolerance)
+        return findings.error(
+            body.field + ".compound",
+            fmt::format("parts of body '{}' overlap by {:.4g} m, and their mass would count twice; let them "
+                        "touch",
+                        body.name, depth));
+    }
 }
 
 void check_against_liquid(const BodyLayout& body, const Layout& layout, Findings& findings) {
@@ -79,6 +96,7 @@ void check_against_walls(const BodyLayout& body, const Layout& layout, Findings&
 void check_bodies(const Layout& layout, Findings& findings) {
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
     check_thickness(layout.bodies[b], layout, findings);
+    check_parts(layout.bodies[b], layout, findings);
     check_against_liquid(layout.bodies[b], layout, findings);
     check_against_bodies(b, layout, findings);
     check_against_walls(layout.bodies[b], layout, findings);

@@ -86,7 +86,7 @@ std::string field_of(const BodyLayout& body, const rigid::MotionError& error) {
 void check_motions(const Layout& layout, Findings& findings) {
   for (const BodyLayout& body : layout.bodies) {
     if (!body.motion) continue;
-    const std::vector<double> times = instants(body, layout.scene.duration());
+    const std::vector<double> times = instants(body, body.motion_end);
     try {
       rigid::check_starts_at_zero(*body.motion);
       check_stays_inside(body, layout, times, findings);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "clients/preflight/checks.hpp"
 #include "protocol/sim_time.hpp"
@@ -14,39 +13,34 @@ constexpr double kBaseBytes = 60e6, kFluidBytes = 700, kBoundaryBytes = 200;
 // Particle steps a second of one thread in two and three dimensions.
 constexpr double kSpeed2 = 1.5e6, kSpeed3 = 0.2e6;
 
-double volume_of(const Layout& layout, const rigid::Shape& shape) {
-  return rigid::solid(shape, layout.dimension).volume;
-}
-
-// Length of the outline, or area of the surface in three dimensions.
-double surface_of(const rigid::Shape& shape, int dimension) {
-  if (const auto* ball = std::get_if<rigid::Ball>(&shape))
-    return dimension == 2 ? 2 * std::numbers::pi * ball->radius
-                          : 4 * std::numbers::pi * ball->radius * ball->radius;
-  if (const auto* box = std::get_if<rigid::Box>(&shape)) {
-    const Eigen::Vector3d size = 2 * box->half_size;
-    if (dimension == 2) return 2 * (size.x() + size.y());
-    return 2 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+// In space, the box around a body that is no box or ball itself: asking for every point takes too long.
+Placed simple(const Placed& body, int dimension) {
+  if (dimension == 2 || std::holds_alternative<rigid::Box>(body.shape) ||
+      std::holds_alternative<rigid::Ball>(body.shape))
+    return body;
+  Eigen::Vector3d low, high;
+  for (int axis = 0; axis < 3; ++axis) {
+    const rigid::Interval range = rigid::extent(body.shape, body.pose, Eigen::Vector3d::Unit(axis), 3);
+    low[axis] = range.min;
+    high[axis] = range.max;
   }
-  const auto& v = std::get<rigid::Polygon>(shape).vertices;
-  double length = 0;
-  for (std::size_t i = 0; i < v.size(); ++i) length += (v[(i + 1) % v.size()] - v[i]).norm();
-  return length;
+  return {rigid::Box{(high - low) / 2}, {(low + high) / 2, Eigen::Quaterniond::Identity()}};
 }
 
 // Share of the body that stands in liquid, from points on a grid over its bounds.
 double submerged_share(const BodyLayout& body, const Layout& layout) {
   constexpr int kGrid = 12;
-  const double radius = rigid::bounding_radius(body.placed.shape, layout.dimension);
+  const Placed placed = simple(body.placed, layout.dimension);
+  const double radius = rigid::bounding_radius(placed.shape, layout.dimension);
   int inside = 0, wet = 0;
   for (int i = 0; i < kGrid; ++i)
     for (int j = 0; j < kGrid; ++j)
       for (int k = 0; k < (layout.dimension == 3 ? kGrid : 1); ++k) {
         const auto at = [&](int n) { return radius * ((2.0 * n + 1) / kGrid - 1); };
-        Eigen::Vector3d x = body.placed.pose.position + Eigen::Vector3d(at(i), at(j), 0);
+        Eigen::Vector3d x = placed.pose.position + Eigen::Vector3d(at(i), at(j), 0);
         if (layout.dimension == 3) x.z() += at(k);
         const std::vector<Placed> point{{rigid::Ball{0}, {x, Eigen::Quaterniond::Identity()}}};
-        if (penetration({body.placed}, point, layout.dimension) <= 0) continue;
+        if (penetration({placed}, point, layout.dimension) <= 0) continue;
         ++inside;
         for (const RegionLayout& region : layout.regions)
           if (penetration(region.pieces, point, layout.dimension) > 0) {
@@ -61,7 +55,7 @@ double fluid_volume(const Layout& layout) {
   double volume = 0;
   for (const RegionLayout& region : layout.regions) volume += region.volume;
   for (const BodyLayout& body : layout.bodies)
-    if (body.displaces_fluid) volume -= submerged_share(body, layout) * volume_of(layout, body.placed.shape);
+    if (body.displaces_fluid) volume -= submerged_share(body, layout) * body.volume;
   return std::max(volume, 0.0);
 }
 
@@ -78,10 +72,11 @@ double wall_particles(const Layout& layout, double layers) {
 // Layers below the surface; of a thick body no more than fill it, of a thin one each face has its own.
 double body_volume_in_particles(const BodyLayout& body, const Layout& layout, double support) {
   const rigid::Shape& shape = body.placed.shape;
-  const double layers = surface_of(shape, layout.dimension) * support;
+  const double layers = rigid::surface(shape, layout.dimension) * support;
   const bool thin =
-      rigid::thickness(shape, layout.dimension) < 2 * support && !std::holds_alternative<rigid::Ball>(shape);
-  return thin ? layers : std::min(layers, volume_of(layout, shape));
+      rigid::thickness(shape, layout.dimension) < 2 * support &&
+      (std::holds_alternative<rigid::Box>(shape) || std::holds_alternative<rigid::Polygon>(shape));
+  return thin ? layers : std::min(layers, body.volume);
 }
 
 }  // namespace

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
-#include "clients/preflight/triangulate.hpp"
 #include "clients/rigid/convert.hpp"
+#include "protocol/mass_properties.hpp"
 #include "protocol/scene_check.hpp"
+#include "rigid/triangulate.hpp"
 
 namespace sluice::clients {
 namespace {
@@ -32,7 +34,8 @@ std::vector<Placed> pieces_of(const FluidRegion& region) {
   rigid::Vertices outline;
   for (const Point& vertex : region.polygon().vertex()) outline.emplace_back(vertex.x(), vertex.y());
   std::vector<Placed> pieces;
-  for (const rigid::Vertices& triangle : triangulate(std::move(outline))) pieces.push_back(piece(triangle));
+  for (const rigid::Vertices& triangle : rigid::triangulate(std::move(outline)))
+    pieces.push_back(piece(triangle));
   return pieces;
 }
 
@@ -45,7 +48,7 @@ RegionLayout lay_out(const FluidRegion& region, int index, int dimension) {
 rigid::MotionPtr motion_of(const Body& body, const std::string& field, int dimension, Findings& findings) {
   if (!body.has_prescribed()) return nullptr;
   try {
-    return to_motion(body.prescribed(), dimension);
+    return to_motion(body, dimension);
   } catch (const rigid::MotionError& error) {
     findings.error(field + ".prescribed." + error.part(),
                    fmt::format("body '{}': {}", body.name(), error.what()));
@@ -57,7 +60,14 @@ std::vector<double> key_times(const Motion& motion) {
   std::vector<double> times;
   for (const Keyframe& key : motion.keyframes().key()) times.push_back(key.time());
   if (motion.has_constant()) times.push_back(motion.constant().start());
+  if (motion.has_sinusoid()) times.push_back(motion.sinusoid().start());
+  if (motion.has_ramp())
+    times.insert(times.end(), {motion.ramp().start(), motion.ramp().start() + motion.ramp().duration()});
   return times;
+}
+
+double motion_end(const Body& body, double duration) {
+  return body.prescribed().has_release() ? std::min(body.prescribed().release(), duration) : duration;
 }
 
 void lay_out(const Body& body, int index, Layout& layout, Findings& findings) {
@@ -65,12 +75,14 @@ void lay_out(const Body& body, int index, Layout& layout, Findings& findings) {
   try {
     layout.bodies.push_back({field,
                              body.name(),
-                             {to_shape(body), initial_pose(body, layout.dimension)},
+                             {to_shape(body, layout.dimension), initial_pose(body, layout.dimension)},
                              motion_of(body, field, layout.dimension, findings),
                              key_times(body.prescribed()),
-                             body.displaces_fluid()});
+                             motion_end(body, layout.scene.duration()),
+                             body.displaces_fluid(),
+                             protocol::moments(body, layout.dimension).volume});
   } catch (const std::invalid_argument& error) {
-    findings.error(field + ".polygon", fmt::format("body '{}': {}", body.name(), error.what()));
+    findings.error(field, fmt::format("body '{}': {}", body.name(), error.what()));
   }
 }
 

@@ -10,18 +10,16 @@
 
 namespace sluice::clients {
 
-// A convex shape somewhere in the world.
-struct Placed {
-  rigid::Shape shape;
-  rigid::Pose pose;
-};
+using rigid::Placed;
 
 struct BodyLayout {
   std::string field, name;  // "body[0]"
   Placed placed;
   rigid::MotionPtr motion;  // null: free, or its motion is an error
   std::vector<double> key_times;
+  double motion_end;  // of the run, or where the motion releases the body [s]
   bool displaces_fluid;
+  double volume;  // [m^3], [m^2] in two dimensions
 };
 
 struct RegionLayout {

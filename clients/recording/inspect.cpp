@@ -33,18 +33,27 @@ const char* shape_name(const Body& body) {
       return "ball";
     case Body::kPolygon:
       return "polygon";
+    case Body::kCylinder:
+      return "cylinder";
+    case Body::kMesh:
+      return body.mesh().convex_hull() ? "convex hull" : "mesh";
+    case Body::kCompound:
+      return "compound";
     case Body::SHAPE_NOT_SET:
       break;
   }
   return "none";
 }
 
+const char* motion_kind(const Body& body) {
+  if (!body.has_prescribed()) return "free";
+  return body.prescribed().has_release() ? "prescribed, then free" : "prescribed";
+}
+
 Json bodies(const Scene& scene) {
   Json list = Json::array();
   for (const auto& body : scene.body()) {
-    list.push_back({{"name", body.name()},
-                    {"shape", shape_name(body)},
-                    {"motion", body.has_prescribed() ? "prescribed" : "free"}});
+    list.push_back({{"name", body.name()}, {"shape", shape_name(body)}, {"motion", motion_kind(body)}});
   }
   return list;
 }

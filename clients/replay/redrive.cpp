@@ -13,6 +13,7 @@
 #include "clients/sluice/endpoints.hpp"
 #include "clients/sluice/process.hpp"
 #include "clients/sluice/siblings.hpp"
+#include "protocol/body_kind.hpp"
 #include "protocol/framing.hpp"
 
 namespace sluice::clients {
@@ -24,11 +25,6 @@ using std::chrono::milliseconds;
 constexpr milliseconds kSlice{100};
 constexpr std::uint64_t kSteps = 64;        // in one message of prescribed kinematics
 constexpr std::size_t kMostUnanswered = 2;  // messages
-
-bool has_free_body(const Scene& scene) {
-  return std::any_of(scene.body().begin(), scene.body().end(),
-                     [](const Body& body) { return !body.has_prescribed(); });
-}
 
 std::filesystem::path write_scene(const Scene& scene, const std::string& endpoint) {
   const std::filesystem::path socket(endpoint.substr(std::string("ipc://").size()));
@@ -45,8 +41,8 @@ class RecordedRigid {
   RecordedRigid(const Reader& recording, Connection& connection)
       : recording_(recording),
         connection_(connection),
-        batch_(has_free_body(recording.scene()) ? 1 : kSteps),
-        ahead_(has_free_body(recording.scene()) ? 1 : kMostUnanswered) {}
+        batch_(protocol::is_any_body_ever_free(recording.scene()) ? 1 : kSteps),
+        ahead_(protocol::is_any_body_ever_free(recording.scene()) ? 1 : kMostUnanswered) {}
 
   [[nodiscard]] bool all_answered() const { return sent_ == recording_.exchanges() && unanswered_ == 0; }
 

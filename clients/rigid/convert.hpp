@@ -10,11 +10,12 @@ namespace sluice::clients {
 // Missing entries are zero.
 Eigen::Vector3d to_vector(const google::protobuf::RepeatedField<double>& entries);
 
-// Throws std::invalid_argument for a polygon that is not convex.
-rigid::Shape to_shape(const Body& body);
+// About the body's centre of mass. Throws std::invalid_argument for a body without a shape.
+rigid::Shape to_shape(const Body& body, int dimension);
 rigid::Pose initial_pose(const Body& body, int dimension);
-// Throws rigid::MotionError; its part is the path of the field below `motion`, such as "expression.x".
-rigid::MotionPtr to_motion(const Motion& motion, int dimension);
+// The body's prescribed motion. Throws rigid::MotionError; its part is the path of the field below
+// `prescribed`, such as "expression.x".
+rigid::MotionPtr to_motion(const Body& body, int dimension);
 
 rigid::Tank to_tank(const Domain& domain, int dimension);
 

@@ -33,8 +33,8 @@ std::string hottest(const validation::SceneRun& run) {
     add(scene.domain().max(a) - x[a], fmt::format("{}_max", "xyz"[a]));
   }
   for (int b = 0; b < scene.body_size(); ++b)
-    add(server::distance(server::to_shape(scene.body(b)), run.body(static_cast<std::size_t>(b)), x,
-                         dimension),
+    add(server::distance(server::to_shape(scene.body(b), static_cast<int>(scene.dimension())),
+                         run.body(static_cast<std::size_t>(b)), x, dimension),
         scene.body(b).name());
   return text;
 }

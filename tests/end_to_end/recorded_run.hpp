@@ -23,6 +23,12 @@ class RecordedRun : public testing::Test {
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
 
+  // A shell script with the programs in its path; fails the test when it does not end well.
+  void script(const std::string& text) const {
+    const Outcome outcome = run_script(text, directory_.path(), SLUICE_BIN);
+    ASSERT_EQ(outcome.code, 0) << outcome.out;
+  }
+
   [[nodiscard]] Outcome redrive(const std::string& recording, const std::string& threads) const {
     return run_program("sluice", {"replay", recording, "--redrive", "--threads", threads}, directory_.path());
   }

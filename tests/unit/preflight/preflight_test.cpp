@@ -210,5 +210,38 @@ TEST_F(PreflightTest, estimates) {
   EXPECT_EQ(cut.fluid_particles, 1600u);
 }
 
+TEST_F(PreflightTest, parts_of_a_compound_may_touch_but_not_overlap) {
+  const auto pair = [](const std::string& x) {
+    return "body { name: \"pair\" density: 500 position: [0.7, 0.5] compound { part { box { size: [0.1, 0.1] "
+           "} }"
+           "part { ball { radius: 0.05 } position: [" +
+           x + ", 0] } } }";
+  };
+  EXPECT_THAT(check(pair("0.1")).errors, IsEmpty());
+  EXPECT_THAT(check(pair("0.09")).errors,
+              ElementsAre(problem("body[0].compound", "parts of body 'pair' overlap by 0.01 m")));
+}
+
+TEST_F(PreflightTest, body_that_is_not_convex_may_embrace_another) {
+  const std::string trough =
+      "body { name: \"trough\" density: 500 position: [0.7, 0.7] center_of_mass: [0.15, 0.1] polygon { "
+      "vertex { } vertex { x: 0.3 } vertex { x: 0.3 y: 0.2 } vertex { x: 0.25 y: 0.2 } vertex { x: 0.25 y: "
+      "0.05 } "
+      "vertex { x: 0.05 y: 0.05 } vertex { x: 0.05 y: 0.2 } vertex { y: 0.2 } } }\n";
+  const auto ball = [](const std::string& y) {
+    return "body { name: \"ball\" density: 500 ball { radius: 0.05 } position: [0.7, " + y + "] }";
+  };
+  EXPECT_THAT(check(trough + ball("0.72")).errors, IsEmpty());
+  EXPECT_THAT(check(trough + ball("0.69")).errors, ElementsAre(problem("body[1].position", "by 0.01 m")));
+}
+
+TEST_F(PreflightTest, motion_of_a_released_body_is_followed_until_then) {
+  const std::string gate =
+      "body { name: \"gate\" box { size: [0.1, 0.1] } position: [0.7, 0.5] density: 500 "
+      "prescribed { constant { velocity: [0, -1] } ";
+  EXPECT_THAT(check(gate + "release: 0.3 } }").errors, IsEmpty());
+  EXPECT_THAT(check(gate + "} }").errors, ElementsAre(problem("body[0].prescribed", "leaves the domain")));
+}
+
 }  // namespace
 }  // namespace sluice::clients

@@ -72,8 +72,9 @@ TEST(SceneFile, FindsUnknownFields) {
             "a.scene:12:3: densty: Body has no such field; did you mean density?");
   EXPECT_EQ(errors_of(with_line(12, "\tdensty : 500 mass: 3")),
             "a.scene:12:2: densty: Body has no such field; did you mean density?");
-  EXPECT_EQ(errors_of(with_line(6, "domain { max: [1, 0.5] whatever { x: [1] } }")),
-            "a.scene:6:24: whatever: Domain has no such field; it has min, max, open, periodic, surface, moving");
+  EXPECT_EQ(
+      errors_of(with_line(6, "domain { max: [1, 0.5] whatever { x: [1] } }")),
+      "a.scene:6:24: whatever: Domain has no such field; it has min, max, open, periodic, surface, moving");
 }
 
 TEST(SceneFile, FindsWhatIsNoText) {

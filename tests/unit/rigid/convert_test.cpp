@@ -63,15 +63,17 @@ TEST(ToShape, polygon_is_moved_to_its_centroid) {
     vertex.set_x(x);
     vertex.set_y(y);
   }
-  const auto polygon = std::get<rigid::Polygon>(to_shape(body));
+  const auto polygon = std::get<rigid::Polygon>(to_shape(body, 2));
   EXPECT_NEAR(polygon.vertices[0].x(), -1.0 / 3, 1e-15);
   EXPECT_NEAR(polygon.vertices[0].y(), -1, 1e-15);
 }
 
 TEST(ToMotion, errors_carry_the_field_below_the_motion) {
   const auto part = [](const Motion& motion) -> std::string {
+    Body body;
+    *body.mutable_prescribed() = motion;
     try {
-      to_motion(motion, 2);
+      to_motion(body, 2);
     } catch (const rigid::MotionError& error) {
       return error.part();
     }

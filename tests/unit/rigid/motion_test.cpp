@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "rigid/shape.hpp"
+
 namespace sluice::rigid {
 namespace {
 
@@ -155,6 +157,57 @@ TEST(CheckStartsAtZero, names_the_offset) {
     EXPECT_THAT(error.what(), HasSubstr("starts at offset (0.1, 0, 0) m"));
   }
   EXPECT_THROW(check_starts_at_zero(*keyframe_motion({key(0.5, 0.1), key(1, 0.2)})), MotionError);
+}
+
+// The derivatives that a motion reports are those of its offset.
+void expect_consistent(const Motion& motion, const std::vector<double>& times) {
+  const double h = 1e-5;
+  for (const double t : times) {
+    const Offset before = motion.at(t - h), now = motion.at(t), after = motion.at(t + h);
+    EXPECT_TRUE(((after.position - before.position) / (2 * h)).isApprox(now.velocity, 1e-6)) << t;
+    EXPECT_TRUE(((after.velocity - before.velocity) / (2 * h)).isApprox(now.acceleration, 1e-6)) << t;
+    EXPECT_TRUE(((after.rotation - before.rotation) / (2 * h)).isApprox(now.angular_velocity, 1e-6)) << t;
+    EXPECT_TRUE(((after.angular_velocity - before.angular_velocity) / (2 * h))
+                    .isApprox(now.angular_acceleration, 1e-6))
+        << t;
+  }
+}
+
+TEST(Sinusoid, swings_from_its_start) {
+  const MotionPtr motion = sinusoid_motion({{0.1, 0, 0}, 0.3, 2, 0.5, 0});
+  EXPECT_EQ(motion->at(0.4).position, Eigen::Vector3d::Zero());
+  EXPECT_NEAR(motion->at(0.5 + 0.125).position.x(), 0.1, 1e-15);
+  EXPECT_NEAR(motion->at(0.5 + 0.375).rotation.z(), -0.3, 1e-15);
+  expect_consistent(*motion, {0.55, 0.8, 1.3});
+  EXPECT_THROW(sinusoid_motion({{0.1, 0, 0}, 0, 0, 0, 0}), MotionError);
+}
+
+TEST(Sinusoid, builds_up_without_a_jump) {
+  const MotionPtr motion = sinusoid_motion({{0.1, 0.05, 0}, 0.2, 1.5, 0.2, 1});
+  EXPECT_LT(motion->at(0.2 + 1e-4).acceleration.norm(), 1e-4);
+  expect_consistent(*motion, {0.3, 0.7, 1.1, 1.5});
+  EXPECT_NEAR(motion->at(1.2 + 0.5).position.x(), 0.1 * std::sin(2 * kPi * 1.5 * 1.5), 1e-12);
+}
+
+TEST(Ramp, goes_from_rest_to_rest) {
+  const MotionPtr motion = ramp_motion({{0, 0.4, 0}, 1, 0.1, 0.5});
+  EXPECT_EQ(motion->at(0.1).position, Eigen::Vector3d::Zero());
+  EXPECT_NEAR(motion->at(0.35).position.y(), 0.2, 1e-15);
+  EXPECT_EQ(motion->at(0.6).position, Eigen::Vector3d(0, 0.4, 0));
+  EXPECT_LT(motion->at(0.6 - 1e-6).acceleration.norm(), 1e-3);
+  expect_consistent(*motion, {0.15, 0.3, 0.5});
+  EXPECT_THROW(ramp_motion({{0, 1, 0}, 0, 0, 0}), MotionError);
+}
+
+TEST(About, turns_about_any_axis_and_point) {
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -1).normalized(), arm(0.3, 0.1, 0.5);
+  const MotionPtr motion = about_pivot(about_axis(ramp_motion({{0.1, 0, 0}, 2, 0, 1}), axis), arm);
+  expect_consistent(*motion, {0.2, 0.4, 0.8});
+  const Offset end = motion->at(1);
+  EXPECT_TRUE(end.rotation.isApprox(2 * axis, 1e-14));
+  const Eigen::Vector3d turned = rotation(2 * axis) * arm;
+  EXPECT_TRUE(end.position.isApprox(Eigen::Vector3d(0.1, 0, 0) + turned - arm, 1e-14));
+  EXPECT_EQ(motion->at(0).position.norm(), 0);
 }
 
 }  // namespace

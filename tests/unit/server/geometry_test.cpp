@@ -13,8 +13,10 @@ Body body_from(const std::string& text) {
 
 TEST(Geometry, MovesAPolygonToItsCentroid) {
   // A right triangle far from the origin: its centroid is a third of the way along each leg.
-  const fluid::Shape shape = server::to_shape(body_from(
-      "polygon { vertex { x: 1000 y: 2000 } vertex { x: 1003 y: 2000 } vertex { x: 1000 y: 2006 } }"));
+  const fluid::Shape shape = server::to_shape(
+      body_from(
+          "polygon { vertex { x: 1000 y: 2000 } vertex { x: 1003 y: 2000 } vertex { x: 1000 y: 2006 } }"),
+      2);
   const auto& vertex = std::get<fluid::PolygonShape>(shape).vertices;
   EXPECT_LT((vertex[0] - Eigen::Vector2d(-1, -2)).norm(), 1e-9);
   EXPECT_LT((vertex[1] - Eigen::Vector2d(2, -2)).norm(), 1e-9);
@@ -22,7 +24,7 @@ TEST(Geometry, MovesAPolygonToItsCentroid) {
 }
 
 TEST(Geometry, HalvesABoxesSize) {
-  const auto box = std::get<fluid::BoxShape>(server::to_shape(body_from("box { size: [0.2, 0.6] }")));
+  const auto box = std::get<fluid::BoxShape>(server::to_shape(body_from("box { size: [0.2, 0.6] }"), 2));
   EXPECT_DOUBLE_EQ(box.half_size.x(), 0.1);
   EXPECT_DOUBLE_EQ(box.half_size.y(), 0.3);
 }

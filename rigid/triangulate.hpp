@@ -4,10 +4,10 @@
 
 #include "rigid/polygon.hpp"
 
-namespace sluice::clients {
+namespace sluice::rigid {
 
 // A simple polygon, counter-clockwise, as triangles, by clipping ears (G. H. Meisters, "Polygons have ears",
 // Amer. Math. Monthly 82 (1975) 648). Cost n^3.
-std::vector<rigid::Vertices> triangulate(rigid::Vertices vertices);
+std::vector<Vertices> triangulate(Vertices vertices);
 
-}  // namespace sluice::clients
+}  // namespace sluice::rigid

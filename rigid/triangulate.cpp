@@ -1,12 +1,9 @@
-#include "clients/preflight/triangulate.hpp"
+#include "rigid/triangulate.hpp"
 
 #include <algorithm>
 
-namespace sluice::clients {
+namespace sluice::rigid {
 namespace {
-
-using rigid::cross;
-using rigid::Vertices;
 
 // Twice the area of a, b, c; positive when they turn left.
 double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
@@ -53,4 +50,4 @@ std::vector<Vertices> triangulate(Vertices vertices) {
   return triangles;
 }
 
-}  // namespace sluice::clients
+}  // namespace sluice::rigid

@@ -1,0 +1,52 @@
+// A participant in Python moves the bodies as `sluice rigid` does.
+#include <cmath>
+
+#include "tests/end_to_end/recorded_run.hpp"
+
+namespace sluice::test {
+namespace {
+
+class PythonParticipant : public RecordedRun {
+ protected:
+  void run_with(const std::string& program, const std::string& scene, const std::string& options) {
+    const std::string source = SLUICE_SOURCE, bin = SLUICE_BIN;
+    script("sluice serve --scene " + source + "/clients/scenes/" + scene + ".scene " + options +
+           " --listen ipc://live.ipc --expect-recorder &\n"
+           "server=$!\n"
+           "sluice record --connect ipc://live.ipc -o live.h5 &\n"
+           "recorder=$!\n"
+           "PYTHONPATH=" +
+           bin + "/../lib/sluice/python /usr/bin/python3 " + source + "/clients/examples/" + program +
+           " ipc://live.ipc\n"
+           "wait $server\n"
+           "wait $recorder\n");
+  }
+};
+
+TEST_F(PythonParticipant, MovesAFreeBodyAsTheRigidProcessDoes) {
+  run_with("falling_body.py", "falling_cylinder", "--set spacing=0.022 --until 0.1 --threads 1");
+  run("falling_cylinder", "rigid.h5", {"--set", "spacing=0.022", "--until", "0.1", "--threads", "1"});
+  const clients::Reader live = read("live.h5"), rigid = read("rigid.h5");
+  ASSERT_EQ(live.exchanges(), rigid.exchanges());
+  ASSERT_GT(live.exchanges(), 100u);
+  double off = 0, fallen = 0;
+  for (std::uint64_t step = 1; step <= live.exchanges(); ++step) {
+    const auto a = live.exchange_log(step, 1), b = rigid.exchange_log(step, 1);
+    for (const std::size_t column : {0u, 1u, 7u, 8u})
+      off = std::max(off,
+                     std::abs(a.array<double>("kinematics")[column] - b.array<double>("kinematics")[column]));
+    fallen = 0.4565 - a.array<double>("kinematics")[1];
+  }
+  EXPECT_GT(fallen, 0.1);
+  EXPECT_LT(off, 1e-7);
+}
+
+TEST_F(PythonParticipant, LiftsAGateByWhatTheWaterDoes) {
+  run_with("watched_gate.py", "rising_gate", "--set spacing=0.004 --until 0.2 --threads 1");
+  const clients::Reader live = read("live.h5");
+  const auto last = live.exchange_log(live.exchanges(), 1);
+  EXPECT_GT(last.array<double>("kinematics")[1], 0.06 + 0.02);
+}
+
+}  // namespace
+}  // namespace sluice::test

@@ -1,0 +1,79 @@
+#include <gmock/gmock.h>
+
+#include "scene_text.hpp"
+
+namespace sluice::protocol {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Joints, RightOnesPass) {
+  EXPECT_EQ(errors_of(kScene + R"(
+joint { body: "gate" hinge { point: [0.5, 0.2] lower: -1 upper: 1 damping: 3 motor { speed: 1 strength: 2 } } }
+joint { body: "gate" to: "ball" spring { from: [0.5, 0.3] to: [0.8, 0.3] stiffness: 10 } }
+joint { name: "rail" body: "gate" slider { axis: [0, 1] } }
+joint { body: "gate" to: "ball" fixed { } }
+contact { friction: 0.1 restitution: 1 })"),
+            "");
+}
+
+struct Wrong {
+  const char* joint;
+  const char* error;
+};
+
+TEST(Joints, WrongOnesAreReportedWithTheirPlace) {
+  for (const auto& [joint, error] :
+       {Wrong{"body: \"gate\"", "a.scene:20:1: joint[0]: has no kind; give hinge, slider, fixed or spring"},
+        Wrong{"body: \"boat\" fixed { }", "a.scene:20:9: joint[0].body: there is no body \"boat\"; name one"},
+        Wrong{"body: \"gate\" to: \"gate\" fixed { }", "joint[0].to: is the same body; name another"},
+        Wrong{"body: \"ball\" fixed { }", "joint[0]: joins nothing that is free to move; remove it"},
+        Wrong{"body: \"gate\" hinge { }",
+              "joint[0].hinge.point: is missing; give a point of the axis with 2 entries"},
+        Wrong{"body: \"gate\" hinge { point: [0, 0] axis: [0, 0, 1] }",
+              "joint[0].hinge.axis: is for three dimensions; in two it is z, remove it"},
+        Wrong{"body: \"gate\" hinge { point: [0, 0] upper: 4 }",
+              "joint[0].hinge.upper: 4 is beyond half a turn, 3.14159 rad"},
+        Wrong{"body: \"gate\" hinge { point: [0, 0] lower: 0.1 }",
+              "joint[0].hinge.lower: 0.1 is above 0, where the joint starts"},
+        Wrong{"body: \"gate\" slider { axis: [0, 0] }", "joint[0].slider.axis: is zero; give a direction"},
+        Wrong{"body: \"gate\" slider { axis: [1, 0] motor { speed: 1 } }",
+              "joint[0].slider.motor.strength: 0 N or N m is not positive"},
+        Wrong{"body: \"gate\" spring { from: [0, 0] to: [1, 0] stiffness: -1 }",
+              "joint[0].spring.stiffness: -1 N/m is negative; give 0 or more"}})
+    EXPECT_THAT(errors_of(kScene + "joint { " + joint + " }"), HasSubstr(error)) << joint;
+}
+
+TEST(Bodies, LocksContactAndInertiaAreChecked) {
+  const auto errors = [](const std::string& line) {
+    return errors_of(with_line(12, "  density: 500 " + line));
+  };
+  EXPECT_EQ(errors("locked: [X_AXIS] locked_rotation: [Z_AXIS] inertia: 3 center_of_mass: [0, 0.01]"), "");
+  EXPECT_THAT(errors("locked: [Z_AXIS]"), HasSubstr("body[0].locked[0]: does not exist in two dimensions"));
+  EXPECT_THAT(errors("locked_rotation: [X_AXIS]"), HasSubstr("body[0].locked_rotation[0]: does not exist"));
+  EXPECT_THAT(errors("contact { restitution: 1.5 }"),
+              HasSubstr("body[0].contact.restitution: 1.5 is outside 0 to 1"));
+  EXPECT_THAT(errors("contact { friction: -1 }"), HasSubstr("body[0].contact.friction: -1"));
+  EXPECT_THAT(errors("inertia: [1, 2]"), HasSubstr("body[0].inertia: 2 entries; give one, about z"));
+  EXPECT_THAT(errors("inertia: [0]"), HasSubstr("body[0].inertia[0]: 0 kg m^2 is not positive"));
+  EXPECT_THAT(
+      errors_of(with_line(12, "  prescribed { ramp { duration: 1 } release: 1 }")),
+      HasSubstr("body[0].prescribed.release: makes the body free, which has neither density nor mass"));
+}
+
+TEST(Motions, NewKindsAreChecked) {
+  const auto errors = [](const std::string& motion) {
+    return errors_of(with_line(12, "  prescribed { " + motion + " }"));
+  };
+  EXPECT_EQ(errors("sinusoid { offset: [0.1, 0] frequency: 2 build_up: 1 } pivot: [0, 0]"), "");
+  EXPECT_EQ(errors("ramp { angle: 1 duration: 2 }"), "");
+  EXPECT_THAT(errors("sinusoid { offset: [0.1, 0] }"),
+              HasSubstr("sinusoid.frequency: 0 1/s is not positive"));
+  EXPECT_THAT(errors("ramp { angle: 1 }"), HasSubstr("ramp.duration: 0 s is not positive"));
+  EXPECT_THAT(errors("ramp { duration: 1 } axis: [1, 0, 0]"),
+              HasSubstr("prescribed.axis: is for three dimensions"));
+  EXPECT_THAT(errors("ramp { duration: 1 } pivot: [1]"), HasSubstr("prescribed.pivot: 1 entries"));
+}
+
+}  // namespace
+}  // namespace sluice::protocol
