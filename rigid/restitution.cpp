@@ -76,22 +76,20 @@ class Exchange {
 };
 
 // A body goes on as before contact until it meets, and with the velocities after the rebound from then on.
-void move_on(double dt, std::span<const Touch> touches, ConstBodies before, ConstBodies inelastic,
-             Bodies bodies) {
+void move_on(double dt, std::span<const Touch> touches, ConstBodies before, Bodies bodies) {
   std::vector<double> when(bodies.size(), 2);
   for (const Touch& touch : touches)
     for (const std::size_t b : {touch.a, touch.b})
       if (touch.is_impact && b != kWall) when[b] = std::min(when[b], touch.when);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (when[b] > 1) continue;
-    const auto more = [&](const Eigen::Vector3d& until, const Eigen::Vector3d& from,
-                          const Eigen::Vector3d& done) {
-      return Eigen::Vector3d(dt * (when[b] * until + (1 - when[b]) * from - done));
+    const auto way = [&](const Eigen::Vector3d& until, const Eigen::Vector3d& from) {
+      return Eigen::Vector3d(dt * (when[b] * until + (1 - when[b]) * from));
     };
-    bodies[b].pose.position += more(before[b].velocity, bodies[b].velocity, inelastic[b].velocity);
-    bodies[b].pose.orientation = rotation(more(before[b].angular_velocity, bodies[b].angular_velocity,
-                                               inelastic[b].angular_velocity)) *
-                                 bodies[b].pose.orientation;
+    const Pose& start = before[b].pose;
+    bodies[b].pose.position = start.position + way(before[b].velocity, bodies[b].velocity);
+    bodies[b].pose.orientation =
+        rotation(way(before[b].angular_velocity, bodies[b].angular_velocity)) * start.orientation;
   }
 }
 
@@ -128,7 +126,7 @@ void throw_back(double dt, std::span<const Touch> touches, std::span<const Inert
     if (changed == 0) break;
   }
   for (const Exchange& exchange : exchanges) exchange.rub(bodies);
-  move_on(dt, touches, before, inelastic, bodies);
+  move_on(dt, touches, before, bodies);
 }
 
 }  // namespace sluice::rigid
