@@ -43,10 +43,34 @@ std::vector<double> edges_of(const FluidRegion& region, int dimension) {
   return std::vector<double>(static_cast<std::size_t>(dimension), 2 * region.ball().radius());
 }
 
-std::vector<double> edges_of(const Body& body, int dimension) {
+std::vector<double> edges_of(const Mesh& mesh) {
+  std::vector<double> edges;
+  for (int a = 0; a < 3; ++a) {
+    double low = mesh.vertex(a), high = low;
+    for (int v = a; v < mesh.vertex_size(); v += 3) {
+      low = std::min(low, mesh.vertex(v));
+      high = std::max(high, mesh.vertex(v));
+    }
+    edges.push_back(high - low);
+  }
+  return edges;
+}
+
+template <typename WithShape>
+std::vector<double> edges_of_simple(const WithShape& body, int dimension) {
   if (body.has_box()) return {body.box().size().begin(), body.box().size().end()};
   if (body.has_polygon()) return edges_of(body.polygon());
+  if (body.has_cylinder())
+    return {2 * body.cylinder().radius(), 2 * body.cylinder().radius(), body.cylinder().length()};
+  if (body.has_mesh()) return edges_of(body.mesh());
   return std::vector<double>(static_cast<std::size_t>(dimension), 2 * body.ball().radius());
+}
+
+double sites_of(const Body& body, int dimension, double spacing) {
+  if (!body.has_compound()) return sites(edges_of_simple(body, dimension), spacing);
+  double sum = 0;
+  for (const Part& part : body.compound().part()) sum += sites(edges_of_simple(part, dimension), spacing);
+  return sum;
 }
 
 }  // namespace
@@ -56,7 +80,7 @@ void check_counts(const Scene& scene, FieldCheck& check) {
   double bodies = 0;
   for (const auto& region : scene.fluid())
     fluid += sites(edges_of(region, check.dimension()), scene.spacing());
-  for (const auto& body : scene.body()) bodies += sites(edges_of(body, check.dimension()), scene.spacing());
+  for (const auto& body : scene.body()) bodies += sites_of(body, check.dimension(), scene.spacing());
   const double domain = sites(difference(scene.domain().max(), scene.domain().min()), scene.spacing());
   const auto check_one = [&](double count, double most, const char* what) {
     if (count > most)

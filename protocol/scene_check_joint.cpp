@@ -106,7 +106,7 @@ void check_joints(const Scene& scene, FieldCheck& check) {
 }
 
 void check_contact(const Contact& contact, const std::string& field, FieldCheck& check) {
-  check.not_negative(contact.friction(), field + ".friction", "");
+  check.not_negative(contact.friction(), field + ".friction", "as a coefficient");
   check.within(contact.restitution(), 0, 1, field + ".restitution");
 }
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "clients/preflight/checks.hpp"
 
 namespace sluice::clients {
@@ -63,9 +65,18 @@ void check_against_liquid(const BodyLayout& body, const Layout& layout, Findings
   }
 }
 
+// Bodies that are joined overlap at the joint.
+bool are_joined(const BodyLayout& a, const BodyLayout& b, const Scene& scene) {
+  return std::any_of(scene.joint().begin(), scene.joint().end(), [&](const Joint& joint) {
+    return (joint.body() == a.name && joint.to() == b.name) ||
+           (joint.body() == b.name && joint.to() == a.name);
+  });
+}
+
 void check_against_bodies(std::size_t b, const Layout& layout, Findings& findings) {
   const BodyLayout& body = layout.bodies[b];
   for (std::size_t other = 0; other < b; ++other) {
+    if (are_joined(body, layout.bodies[other], layout.scene)) continue;
     const double depth = penetration({body.placed}, {layout.bodies[other].placed}, layout.dimension);
     if (depth > layout.tolerance)
       findings.error(

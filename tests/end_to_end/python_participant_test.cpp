@@ -29,16 +29,19 @@ TEST_F(PythonParticipant, MovesAFreeBodyAsTheRigidProcessDoes) {
   const clients::Reader live = read("live.h5"), rigid = read("rigid.h5");
   ASSERT_EQ(live.exchanges(), rigid.exchanges());
   ASSERT_GT(live.exchanges(), 100u);
-  double off = 0, fallen = 0;
-  for (std::uint64_t step = 1; step <= live.exchanges(); ++step) {
+  // Both compute the same; what their round-off makes of the splash later differs.
+  const auto difference = [&](std::uint64_t step) {
     const auto a = live.exchange_log(step, 1), b = rigid.exchange_log(step, 1);
+    double largest = 0;
     for (const std::size_t column : {0u, 1u, 7u, 8u})
-      off = std::max(off,
-                     std::abs(a.array<double>("kinematics")[column] - b.array<double>("kinematics")[column]));
-    fallen = 0.4565 - a.array<double>("kinematics")[1];
-  }
-  EXPECT_GT(fallen, 0.1);
-  EXPECT_LT(off, 1e-7);
+      largest = std::max(
+          largest, std::abs(a.array<double>("kinematics")[column] - b.array<double>("kinematics")[column]));
+    return largest;
+  };
+  for (std::uint64_t step = 1; step <= 50; ++step) ASSERT_LT(difference(step), 1e-12) << step;
+  const double y = live.exchange_log(live.exchanges(), 1).array<double>("kinematics")[1];
+  EXPECT_LT(y, 0.35);
+  EXPECT_NEAR(y, rigid.exchange_log(rigid.exchanges(), 1).array<double>("kinematics")[1], 2e-3);
 }
 
 TEST_F(PythonParticipant, LiftsAGateByWhatTheWaterDoes) {
