@@ -44,6 +44,7 @@ std::vector<double> edges_of(const FluidRegion& region, int dimension) {
 }
 
 std::vector<double> edges_of(const Mesh& mesh) {
+  if (mesh.vertex_size() < 3) return {0, 0, 0};  // its file could not be read
   std::vector<double> edges;
   for (int a = 0; a < 3; ++a) {
     double low = mesh.vertex(a), high = low;

@@ -32,7 +32,7 @@ struct Loaded {
 
 Loaded load(const std::string& scene, const std::string& name, const std::string& content) {
   const TemporaryDirectory directory;
-  directory.write(name, content);
+  (void)directory.write(name, content);
   const std::string path = directory.write("a.scene", scene);
   Loaded result;
   try {

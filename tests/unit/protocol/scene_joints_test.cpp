@@ -24,8 +24,8 @@ struct Wrong {
 
 TEST(Joints, WrongOnesAreReportedWithTheirPlace) {
   for (const auto& [joint, error] :
-       {Wrong{"body: \"gate\"", "a.scene:20:1: joint[0]: has no kind; give hinge, slider, fixed or spring"},
-        Wrong{"body: \"boat\" fixed { }", "a.scene:20:9: joint[0].body: there is no body \"boat\"; name one"},
+       {Wrong{"body: \"gate\"", "a.scene:21:1: joint[0]: has no kind; give hinge, slider, fixed or spring"},
+        Wrong{"body: \"boat\" fixed { }", "a.scene:21:9: joint[0].body: there is no body \"boat\"; name one"},
         Wrong{"body: \"gate\" to: \"gate\" fixed { }", "joint[0].to: is the same body; name another"},
         Wrong{"body: \"ball\" fixed { }", "joint[0]: joins nothing that is free to move; remove it"},
         Wrong{"body: \"gate\" hinge { }",
