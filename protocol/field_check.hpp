@@ -48,6 +48,7 @@ void check_bodies(const Scene& scene, FieldCheck& check);
 void check_body_shape(const Body& body, const std::string& field, FieldCheck& check);
 // A rotation: by angle in two dimensions, by a quaternion in three.
 void check_turn(double angle, const Vector& orientation, const std::string& field, FieldCheck& check);
+void check_probes(const Scene& scene, FieldCheck& check);
 void check_joints(const Scene& scene, FieldCheck& check);
 void check_contact(const Contact& contact, const std::string& field, FieldCheck& check);
 void check_motion(const Motion& motion, const std::string& field, FieldCheck& check);

@@ -103,6 +103,7 @@ std::vector<Problem> check_fields(const Scene& scene) {
     check_regions(scene, check);
     check_bodies(scene, check);
     check_joints(scene, check);
+    check_probes(scene, check);
     check_contact(scene.contact(), "contact", check);
   } else {
     check.report("dimension", fmt::format("{} is neither 2 nor 3; give one of them", scene.dimension()));

@@ -2,6 +2,7 @@
 
 #include "server/build_info.hpp"
 #include "server/kinematics_rows.hpp"
+#include "server/probes.hpp"
 
 namespace sluice::server {
 
@@ -84,6 +85,9 @@ Message frame(const Simulation& simulation, std::uint64_t step, std::span<const 
   message.add_array<double>("body/kinematics", kinematics,
                             {kinematics.size() / kKinematicsRow, kKinematicsRow});
   add_wrenches(message, "body/wrench", simulation.solver->wrenches());
+
+  if (const auto probes = static_cast<std::size_t>(simulation.scene.probe_size()); probes > 0)
+    message.add_array<double>("probe", probe_rows(simulation, kinematics), {probes, kProbeRow});
 
   Frame& content = *message.header.mutable_frame();
   content.set_index(step / simulation.clock.steps_per_interval());

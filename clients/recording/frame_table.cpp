@@ -33,8 +33,8 @@ void link_times(hid_t file, const std::string& group) {
 }  // namespace
 
 template <typename Make>
-FrameTable::FrameTable(hsize_t particles, hsize_t bodies, Make make)
-    : fields_(layout::frame_fields(particles, bodies)), observables_(layout::observables()) {
+FrameTable::FrameTable(hsize_t particles, hsize_t bodies, hsize_t probes, Make make)
+    : fields_(layout::frame_fields(particles, bodies, probes)), observables_(layout::observables()) {
   using Row = h5::Shape;
   step_ = make.template operator()<std::uint64_t>(layout::kFrameStep, Row{}, "");
   time_ = make.template operator()<double>(layout::kFrameTime, Row{}, "s");
@@ -48,20 +48,21 @@ FrameTable::FrameTable(hsize_t particles, hsize_t bodies, Make make)
                                                        observable.row, observable.unit));
 }
 
-FrameTable FrameTable::create(hid_t file, hsize_t particles, hsize_t bodies) {
-  FrameTable table(particles, bodies,
+FrameTable FrameTable::create(hid_t file, hsize_t particles, hsize_t bodies, hsize_t probes) {
+  FrameTable table(particles, bodies, probes,
                    [&]<typename T>(const std::string& path, const h5::Shape& row, const std::string& unit) {
                      return h5::Series::create<T>(file, path, row, unit);
                    });
   link_times(file, "/frames");
   for (const char* name : {"velocity", "density", "pressure"})
     link_times(file, fmt::format("/particles/fluid/{}", name));
+  if (probes > 0) link_times(file, layout::kProbes);
   for (const auto& observable : table.observables_) link_times(file, layout::energy_group(observable));
   return table;
 }
 
-FrameTable FrameTable::open(hid_t file, hsize_t particles, hsize_t bodies) {
-  return {particles, bodies,
+FrameTable FrameTable::open(hid_t file, hsize_t particles, hsize_t bodies, hsize_t probes) {
+  return {particles, bodies, probes,
           [&]<typename T>(const std::string& path, const h5::Shape& row, const std::string& /*unit*/) {
             return h5::Series::open(file, path, row);
           }};

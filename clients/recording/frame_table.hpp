@@ -12,8 +12,8 @@ namespace sluice::clients {
 // The state frames of a recording: a row in each of its datasets.
 class FrameTable {
  public:
-  static FrameTable create(hid_t file, hsize_t particles, hsize_t bodies);
-  static FrameTable open(hid_t file, hsize_t particles, hsize_t bodies);
+  static FrameTable create(hid_t file, hsize_t particles, hsize_t bodies, hsize_t probes);
+  static FrameTable open(hid_t file, hsize_t particles, hsize_t bodies, hsize_t probes);
 
   // Throws ProtocolError, having written nothing, when the frame is not the next or not what it says.
   void append(const protocol::Message& frame);
@@ -29,7 +29,7 @@ class FrameTable {
 
  private:
   template <typename Make>
-  FrameTable(hsize_t particles, hsize_t bodies, Make make);
+  FrameTable(hsize_t particles, hsize_t bodies, hsize_t probes, Make make);
   void check(const protocol::Message& frame) const;
 
   std::vector<layout::Field> fields_;

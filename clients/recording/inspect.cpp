@@ -70,6 +70,44 @@ Json energy(const Reader& recording, std::uint64_t frame) {
           {"max_compression", values.max_compression()}};
 }
 
+// The probes' values in the last frame.
+Json probes(const Reader& recording) {
+  Json list = Json::array();
+  const Scene& scene = recording.scene();
+  if (scene.probe().empty() || recording.frames() == 0) return list;
+  const protocol::Message frame = recording.frame(recording.frames() - 1);
+  const auto values = frame.array<double>("probe");
+  for (int p = 0; p < scene.probe_size(); ++p) {
+    const double* row = values.data() + 6 * static_cast<std::size_t>(p);
+    Json probe = {{"name", scene.probe(p).name()}};
+    if (scene.probe(p).has_point()) {
+      probe["pressure"] = row[0];
+      probe["velocity"] = {row[1], row[2], row[3]};
+      probe["wetness"] = row[4];
+    } else if (scene.probe(p).has_surface()) {
+      probe["height"] = row[1] == 0 ? Json(nullptr) : Json(row[0]);
+    } else {
+      probe["force"] = {row[0], row[1], row[2]};
+      probe["moment"] = {row[3], row[4], row[5]};
+    }
+    list.push_back(std::move(probe));
+  }
+  return list;
+}
+
+std::string vector_text(const Json& v) {
+  return fmt::format("({:.5g}, {:.5g}, {:.5g})", v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+}
+
+std::string probe_text(const Json& probe) {
+  if (probe.contains("pressure"))
+    return fmt::format("{:.6g} Pa, {} m/s, wetness {:.3g}", probe["pressure"].get<double>(),
+                       vector_text(probe["velocity"]), probe["wetness"].get<double>());
+  if (probe.contains("force"))
+    return fmt::format("{} N, {} N m", vector_text(probe["force"]), vector_text(probe["moment"]));
+  return probe["height"].is_null() ? "no liquid" : fmt::format("{:.6g} m", probe["height"].get<double>());
+}
+
 // Everything there is to say; the text shows the same.
 Json describe(const Reader& recording) {
   const Welcome& welcome = recording.welcome();
@@ -101,6 +139,7 @@ Json describe(const Reader& recording) {
     result["last_step"] = recording.frame_header(frames - 1).step();
     result["first"] = energy(recording, 0);
     result["last"] = energy(recording, frames - 1);
+    result["probes"] = probes(recording);
   }
   return result;
 }
@@ -162,6 +201,8 @@ std::string inspect(const Reader& recording) {
   if (recording.frames() > 0) {
     result += line("first", energy_line(all["first"]));
     result += line("last", energy_line(all["last"]));
+    for (const auto& probe : all["probes"])
+      result += line("probe", fmt::format("{}: {}", probe["name"].get<std::string>(), probe_text(probe)));
   }
   result += line("ended", ending_line(recording));
   result += line("run", fmt::format("{}, {:.1f} s wall clock", recording.run_id(), recording.wall_seconds()));

@@ -20,6 +20,7 @@ inline constexpr const char* kFrameStep = "/particles/fluid/position/step";
 inline constexpr const char* kFrameTime = "/particles/fluid/position/time";
 inline constexpr const char* kFrameTimeNs = "/frames/time_ns";
 inline constexpr const char* kFrameHash = "/frames/hash";
+inline constexpr const char* kProbes = "/observables/probe";
 // Over step, time_ns, hash and the energies of the frame.
 inline constexpr const char* kFrameChecksum = "/frames/checksum";
 // Over step, time_ns, kinematics and wrenches of the step.
@@ -36,13 +37,15 @@ struct Field {
 };
 
 // Arrays of a Frame in the order of the message, all float64; the hash of a frame is over them in this order.
-inline std::vector<Field> frame_fields(hsize_t particles, hsize_t bodies) {
-  return {{"fluid/position", "/particles/fluid/position/value", {particles, 3}, "m"},
-          {"fluid/velocity", "/particles/fluid/velocity/value", {particles, 3}, "m s-1"},
-          {"fluid/density", "/particles/fluid/density/value", {particles}, "kg m-3"},
-          {"fluid/pressure", "/particles/fluid/pressure/value", {particles}, "Pa"},
-          {"body/kinematics", "/frames/kinematics", {bodies, 19}, ""},
-          {"body/wrench", "/frames/wrench", {bodies, 6}, ""}};
+inline std::vector<Field> frame_fields(hsize_t particles, hsize_t bodies, hsize_t probes) {
+  std::vector<Field> fields{{"fluid/position", "/particles/fluid/position/value", {particles, 3}, "m"},
+                            {"fluid/velocity", "/particles/fluid/velocity/value", {particles, 3}, "m s-1"},
+                            {"fluid/density", "/particles/fluid/density/value", {particles}, "kg m-3"},
+                            {"fluid/pressure", "/particles/fluid/pressure/value", {particles}, "Pa"},
+                            {"body/kinematics", "/frames/kinematics", {bodies, 19}, ""},
+                            {"body/wrench", "/frames/wrench", {bodies, 6}, ""}};
+  if (probes > 0) fields.push_back({"probe", std::string(kProbes) + "/value", {probes, 6}, ""});
+  return fields;
 }
 
 // Arrays of an ExchangeLog, a row a step, all float64.

@@ -117,7 +117,8 @@ class Reader::File {
   // do not have the checksum zero.
   void open_tables() {
     const auto bodies = static_cast<hsize_t>(welcome.scene().body_size());
-    frame_table = FrameTable::open(file, welcome.fluid_particles(), bodies);
+    frame_table = FrameTable::open(file, welcome.fluid_particles(), bodies,
+                                   static_cast<hsize_t>(welcome.scene().probe_size()));
     exchange_table = ExchangeTable::open(file, bodies);
     frames = frame_table->length();
     exchanges = exchange_table->length();

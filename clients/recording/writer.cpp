@@ -37,7 +37,9 @@ class Writer::File {
  public:
   File(OutputFile output, const Message& message) : File(std::move(output), message.header.welcome()) {
     write_prologue(file_, message);
-    frames_ = FrameTable::create(file_, message.header.welcome().fluid_particles(), bodies_);
+    const Welcome& welcome = message.header.welcome();
+    frames_ = FrameTable::create(file_, welcome.fluid_particles(), bodies_,
+                                 static_cast<hsize_t>(welcome.scene().probe_size()));
     exchanges_ = ExchangeTable::create(file_, bodies_);
     h5::check(H5Fstart_swmr_write(file_), "start single-writer multiple-reader mode");
     flush();

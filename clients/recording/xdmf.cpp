@@ -71,7 +71,7 @@ void write_xdmf(const std::filesystem::path& path) {
   fmt::print(out,
              "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
              "<Grid Name=\"fluid\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
-  auto fields = layout::frame_fields(recording.welcome().fluid_particles(), 0);
+  auto fields = layout::frame_fields(recording.welcome().fluid_particles(), 0, 0);
   fields.resize(4);  // those of the fluid
   for (std::uint64_t frame = 0; frame < recording.frames(); ++frame)
     write_frame(out, recording, fields, frame);
