@@ -165,6 +165,8 @@ std::vector<Touch> ContactDrift::Bullet::touches(double dt, std::span<const Free
 // zero, bodies come to touch, and the pass over the points that did throws them back.
 void ContactDrift::Bullet::rebound(double dt, std::span<const FreeBody::Drift> before,
                                    std::span<FreeBody::Drift> after) {
+  const auto bounces = [](const Contact& contact) { return contact.restitution > 0; };
+  if (!bounces(wall_contact) && std::none_of(contacts.begin(), contacts.end(), bounces)) return;
   const std::vector<Touch> found = touches(dt, before, after);
   if (std::none_of(found.begin(), found.end(), [](const Touch& touch) { return touch.is_impact; })) return;
   std::vector<Inertia> inertia(bodies.size());
