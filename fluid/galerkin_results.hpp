@@ -37,13 +37,26 @@ Diagnostics GalerkinSolver<Dim, Kernel>::diagnostics() const {
     d.max_speed = larger(d.max_speed, node.v.norm());
     d.max_compression = larger(d.max_compression, std::abs(node.rho / model_.eos.rest_density() - 1.0));
   }
-  const auto& active = search_.active_boundary();
-  for (std::size_t a = 0; a < active.size(); ++a)
-    for (const std::uint32_t i : search_.fluid_near_active(a))
-      if (i < fluid_.size())
-        d.elastic += guard_energy<Dim>(model_, fluid_.node[i].x - boundary_.node()[active[a]].x);
+  d.elastic += stored_in_guard();
   d.boundary_work = boundary_work_;
   return d;
+}
+
+// Energy of the penetration guard [J].
+template <int Dim, typename Kernel>
+double GalerkinSolver<Dim, Kernel>::stored_in_guard() const {
+  double energy = 0;
+  const auto add = [&](std::size_t i, std::size_t w) {
+    if (i < fluid_.size()) energy += guard_energy<Dim>(model_, fluid_.node[i].x - boundary_.node()[w].x);
+  };
+  if (by_groups_) {
+    search_.groups().for_boundary_pairs(boundary_.size(), add);
+    return energy;
+  }
+  const auto& active = search_.active_boundary();
+  for (std::size_t a = 0; a < active.size(); ++a)
+    for (const std::uint32_t i : search_.fluid_near_active(a)) add(i, active[a]);
+  return energy;
 }
 
 }  // namespace sluice::fluid
