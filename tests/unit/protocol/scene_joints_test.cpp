@@ -75,5 +75,19 @@ TEST(Motions, NewKindsAreChecked) {
   EXPECT_THAT(errors("ramp { duration: 1 } pivot: [1]"), HasSubstr("prescribed.pivot: 1 entries"));
 }
 
+TEST(Probes, AreChecked) {
+  const auto errors = [](const std::string& probe) { return errors_of(kScene + "probe { " + probe + " }"); };
+  EXPECT_EQ(errors("name: \"a\" point { position: [0.1, 0.1] body: \"gate\" }"), "");
+  EXPECT_EQ(errors("name: \"a\" surface { position: [0.1, 0] }"), "");
+  EXPECT_EQ(errors("name: \"a\" force { body: \"gate\" }"), "");
+  EXPECT_THAT(errors("name: \"a\""), HasSubstr("probe[0]: has no kind; give point, surface or force"));
+  EXPECT_THAT(errors("point { position: [0, 0] }"), HasSubstr("probe[0].name: is missing; name the probe"));
+  EXPECT_THAT(errors("name: \"a\" point { }"), HasSubstr("probe[0].point.position: is missing"));
+  EXPECT_THAT(errors("name: \"a\" force { }"),
+              HasSubstr("probe[0].force.body: there is no body \"\"; name one"));
+  EXPECT_THAT(errors("name: \"a\" force { body: \"gate\" } } probe { name: \"a\" force { body: \"gate\" }"),
+              HasSubstr("probe[1].name: \"a\" is the name of probe[0] too; names must differ"));
+}
+
 }  // namespace
 }  // namespace sluice::protocol
