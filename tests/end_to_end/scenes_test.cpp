@@ -40,7 +40,7 @@ TEST_F(Scenes, WedgeIsSlowedByTheWaterAndStaysUpright) {
 }
 
 TEST_F(Scenes, SphereEntersTheWater) {
-  run_scene("falling_sphere", "0.025", "0.05");
+  run_scene("falling_sphere", "0.025", "0.06");
   EXPECT_LT(last(0, 2), 0.25);
   EXPECT_NEAR(last(0, 0), 0.2, 0.005);
 }
