@@ -2,6 +2,7 @@
 
 // What GalerkinSolver tells of its state.
 
+#include "fluid/force_parts.hpp"
 #include "fluid/galerkin_solver.hpp"
 
 namespace sluice::fluid {
@@ -44,6 +45,33 @@ Diagnostics GalerkinSolver<Dim, Kernel>::diagnostics() const {
         d.elastic += guard_energy<Dim>(model_, fluid_.node[i].x - boundary_.node()[active[a]].x);
   d.boundary_work = boundary_work_;
   return d;
+}
+
+template <int Dim, typename Kernel>
+std::vector<WrenchParts> GalerkinSolver<Dim, Kernel>::wrench_parts() const {
+  std::vector<WrenchParts> parts(wrench_.size() - 1);
+  const auto& active = search_.active_boundary();
+  std::vector<ReactionParts<Dim>> sum(active.size());
+  parallel_.for_each(active.size(), [&](std::size_t a) {
+    if (boundary_.body(active[a]) > 0)
+      sum[a] = reaction_parts<Dim>(model_, fluid_, search_.fluid_near_active(a), active[a], boundary_);
+  });
+  for (std::size_t a = 0; a < active.size(); ++a) {
+    if (boundary_.body(active[a]) == 0) continue;
+    const auto b = static_cast<std::size_t>(boundary_.body(active[a]) - 1);
+    const Eigen::Vector3d arm = widen<Dim>(boundary_.node()[active[a]].x) - bodies_[b].position;
+    const Eigen::Vector3d guard = widen<Dim>(sum[a].guard), viscous = widen<Dim>(sum[a].viscous.force);
+    parts[b].guard.force += guard;
+    parts[b].guard.moment += arm.cross(guard);
+    parts[b].viscous.force += viscous;
+    parts[b].viscous.moment += arm.cross(viscous) + sum[a].viscous.couple;
+  }
+  for (std::size_t b = 0; b < parts.size(); ++b) {
+    const Wrench& all = wrench_[b + 1];
+    parts[b].pressure.force = all.force - parts[b].guard.force - parts[b].viscous.force;
+    parts[b].pressure.moment = all.moment - parts[b].guard.moment - parts[b].viscous.moment;
+  }
+  return parts;
 }
 
 }  // namespace sluice::fluid

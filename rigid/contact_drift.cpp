@@ -125,4 +125,11 @@ void ContactDrift::step(double dt, std::span<FreeBody::Drift> bodies) {
   }
 }
 
+void ContactDrift::drop_contacts() {
+  btOverlappingPairCache& cache = *bullet_->broadphase.getOverlappingPairCache();
+  btBroadphasePairArray& pairs = cache.getOverlappingPairArray();
+  for (int p = 0; p < pairs.size(); ++p) cache.cleanOverlappingPair(pairs[p], &bullet_->dispatcher);
+  bullet_->solver.reset();
+}
+
 }  // namespace sluice::rigid

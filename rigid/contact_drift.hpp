@@ -23,6 +23,9 @@ class ContactDrift {
   // the velocities after contact.
   void step(double dt, std::span<FreeBody::Drift> bodies);
 
+  // Forgets the contact points of the step before.
+  void drop_contacts();
+
  private:
   struct Bullet;
   std::unique_ptr<Bullet> bullet_;

@@ -54,6 +54,17 @@ void FreeBody::kick(double dt) {
   angular_momentum_ += dt * wrench_.moment;
 }
 
+void FreeBody::push(const Wrench& impulse) {
+  velocity_ += impulse.force.cwiseProduct(free_axes_) / mass_;
+  angular_momentum_ += impulse.moment.cwiseProduct(free_turns_);
+}
+
+double FreeBody::impulse_energy(const Wrench& impulse) const {
+  const Eigen::Vector3d moment = pose_.orientation.conjugate() * impulse.moment.cwiseProduct(free_turns_);
+  return 0.5 * (impulse.force.cwiseProduct(free_axes_).squaredNorm() / mass_ +
+                moment.dot(inverse_inertia_.cwiseProduct(moment)));
+}
+
 Eigen::Vector3d FreeBody::angular_velocity(const Eigen::Quaterniond& q) const {
   return q * inverse_inertia_.cwiseProduct(q.conjugate() * angular_momentum_);
 }

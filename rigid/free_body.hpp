@@ -13,6 +13,8 @@ class FreeBody {
   // V += dt (F/m + g), L += dt T, with the last wrench.
   void kick(double dt);
   void set_wrench(const Wrench& wrench);
+  // Adds momentum [N s] and angular momentum [N m s].
+  void push(const Wrench& impulse);
 
   // The constant angular velocity that carries the body through a drift of dt: that of the half-turned body.
   [[nodiscard]] Eigen::Vector3d drift_angular_velocity(double dt) const;
@@ -28,6 +30,8 @@ class FreeBody {
   [[nodiscard]] Drift begin_drift(double dt) const { return {pose_, velocity_, drift_angular_velocity(dt)}; }
   [[nodiscard]] Kinematics state() const;
   [[nodiscard]] double kinetic_energy() const;
+  // That of a body at rest after this impulse [J].
+  [[nodiscard]] double impulse_energy(const Wrench& impulse) const;
   [[nodiscard]] double mass() const { return mass_; }
   [[nodiscard]] const Eigen::Vector3d& inertia() const { return inertia_; }
 

@@ -59,6 +59,8 @@ struct World::Parts {
   std::vector<std::optional<FreeBody>> free;
   std::vector<Offset> offset;             // of prescribed bodies, at the end of the last step
   std::unique_ptr<ContactDrift> contact;  // absent where no body is free
+  std::vector<std::optional<FreeBody>> saved_free;
+  std::vector<Offset> saved_offset;
 
   explicit Parts(WorldSpec s) : spec(std::move(s)), free(spec.bodies.size()), offset(spec.bodies.size()) {
     std::vector<const FreeBody*> pointers(spec.bodies.size(), nullptr);
@@ -134,11 +136,37 @@ void World::correct(double dt, std::span<const Wrench> wrenches) {
     if (free) free->kick(dt / 2);
 }
 
+void World::push(std::span<const Wrench> impulses) {
+  for (std::size_t b = 0; b < impulses.size(); ++b)
+    if (auto& free = parts_->free[b]) free->push(impulses[b]);
+}
+
+void World::save() {
+  parts_->saved_free = parts_->free;
+  parts_->saved_offset = parts_->offset;
+  if (parts_->contact) parts_->contact->drop_contacts();
+}
+
+void World::restore() {
+  parts_->free = parts_->saved_free;
+  parts_->offset = parts_->saved_offset;
+  if (parts_->contact) parts_->contact->drop_contacts();
+}
+
 std::size_t World::size() const {
   return parts_->free.size();
 }
 bool World::has_free_bodies() const {
   return parts_->has_free();
+}
+bool World::is_free(std::size_t body) const {
+  return parts_->free.at(body).has_value();
+}
+double World::mass(std::size_t body) const {
+  return parts_->free.at(body).value().mass();
+}
+double World::impulse_energy(std::size_t body, const Wrench& impulse) const {
+  return parts_->free.at(body).value().impulse_energy(impulse);
 }
 Kinematics World::state(std::size_t body) const {
   return parts_->free.at(body).value().state();

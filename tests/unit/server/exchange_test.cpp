@@ -34,7 +34,7 @@ std::optional<Message> answer(server::Exchange& exchange, std::uint64_t step) {
 }
 
 TEST(Exchange, AnswersABatchWhenItsLastStepIsDone) {
-  server::Exchange exchange(1, 10, false);
+  server::Exchange exchange(1, 10, {.lock_step = false});
   EXPECT_FALSE(exchange.has(1));
   exchange.accept(kinematics(1, 1, 3));
   ASSERT_TRUE(exchange.has(1));
@@ -51,7 +51,7 @@ TEST(Exchange, AnswersABatchWhenItsLastStepIsDone) {
 }
 
 TEST(Exchange, HoldsTwoBatchesAndRefusesTheThird) {
-  server::Exchange exchange(1, 100, false);
+  server::Exchange exchange(1, 100, {.lock_step = false});
   exchange.accept(kinematics(1, 1, 2));
   exchange.accept(kinematics(2, 3, 2));
   EXPECT_THROW(exchange.accept(kinematics(3, 5, 2)), server::Refused);
@@ -62,7 +62,7 @@ TEST(Exchange, HoldsTwoBatchesAndRefusesTheThird) {
 }
 
 TEST(Exchange, KeepsTheLastRepliesAndRefusesOlderOnes) {
-  server::Exchange exchange(1, 100, false);
+  server::Exchange exchange(1, 100, {.lock_step = false});
   for (std::uint64_t n = 1; n <= 3; ++n) {
     exchange.accept(kinematics(n, n, 1));
     answer(exchange, n);
@@ -73,7 +73,7 @@ TEST(Exchange, KeepsTheLastRepliesAndRefusesOlderOnes) {
 }
 
 TEST(Exchange, ARepeatedMessageThatWaitsForItsAnswerChangesNothing) {
-  server::Exchange exchange(1, 100, false);
+  server::Exchange exchange(1, 100, {.lock_step = false});
   exchange.accept(kinematics(1, 1, 1));
   EXPECT_FALSE(exchange.accept(kinematics(1, 1, 1)));
   EXPECT_TRUE(answer(exchange, 1));
@@ -81,7 +81,7 @@ TEST(Exchange, ARepeatedMessageThatWaitsForItsAnswerChangesNothing) {
 }
 
 TEST(Exchange, CapsTheStepsOfAMessage) {
-  server::Exchange exchange(1, 1000, false);
+  server::Exchange exchange(1, 1000, {.lock_step = false});
   EXPECT_THROW(exchange.accept(kinematics(1, 1, 257)), server::Refused);
   EXPECT_FALSE(exchange.accept(kinematics(1, 1, 256)));
 }
