@@ -21,7 +21,9 @@ std::uint64_t exchange(Simulation& simulation, Coupling& coupling, const Guard& 
     const std::uint64_t last = coupling.exchange_end(first);
     for (std::uint64_t step = first; step <= last; ++step) {
       solver.step(protocol::seconds(clock.duration(step)), coupling.kinematics(step));
-      guard.check(solver.wrenches(), protocol::seconds(clock.time(step)));
+      const double time = protocol::seconds(clock.time(step));
+      guard.check(solver.wrenches(), time);
+      if (step % kGuardEvery == 0 || clock.is_output(step)) guard.check(solver.snapshot(), time);
       coupling.answer(step);
     }
     if (!coupling.repeats()) return last;
@@ -31,14 +33,11 @@ std::uint64_t exchange(Simulation& simulation, Coupling& coupling, const Guard& 
 
 void advance(Simulation& simulation, Coupling& coupling) {
   const protocol::StepClock& clock = simulation.clock;
-  fluid::Solver& solver = *simulation.solver;
   const Guard guard(simulation.scene);
 
   coupling.output(0);
   for (std::uint64_t first = 1; first <= clock.steps();) {
     const std::uint64_t last = exchange(simulation, coupling, guard, first);
-    if ((first - 1) / kGuardEvery != last / kGuardEvery || clock.is_output(last))
-      guard.check(solver.snapshot(), protocol::seconds(clock.time(last)));
     if (clock.is_output(last)) coupling.output(last);
     coupling.poll();
     first = last + 1;

@@ -16,8 +16,8 @@ double allowed_indicator(std::uint64_t steps_per_exchange) {
 
 double largest_exchange_step(const Scene& scene, const fluid::Setup& setup) {
   double largest = std::numeric_limits<double>::infinity();
-  if (!scene.coupling().shorten_steps()) return largest;
   const std::uint64_t steps = scene.coupling().steps_per_exchange();
+  if (!scene.coupling().shorten_steps() || steps == 1) return largest;
   const double allowed = allowed_indicator(steps) / static_cast<double>(steps);
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const double mass = setup.bodies[b].free_mass;

@@ -18,7 +18,7 @@ struct CouplingPlan {
 double allowed_indicator(std::uint64_t steps_per_exchange);
 
 // The largest fluid step [s] at which all free bodies are stable by the explicit scheme, infinite where the
-// steps are not to be shortened for them.
+// steps are not to be shortened for them, or an exchange is one step: the solver's own limit is that.
 double largest_exchange_step(const Scene& scene, const fluid::Setup& setup);
 
 // From a scene with its defaults and fluid steps of `step` [s]. AUTO becomes one of the others.

@@ -96,16 +96,27 @@ void SceneRun::exchange() {
   window_->begin(steps);
   if (coupling.scheme() == IMPLICIT) solver.save();
   std::vector<clients::Window::Wrenches> answer;
+  Eigen::Vector3d on_walls, on_bodies;
   do {
     if (!answer.empty()) solver.restore();
     answer.clear();
+    on_walls = on_bodies = Eigen::Vector3d::Zero();
     const auto motion = window_->predict();
     for (std::size_t k = 0; k < steps.size(); ++k) {
       set_bodies(motion[k]);
+      const double half = 0.5 * steps[k].length;
+      const auto add = [&] {
+        on_walls += half * solver.wall_wrench().force;
+        for (const fluid::Wrench& wrench : solver.wrenches()) on_bodies += half * wrench.force;
+      };
+      add();
       solver.step(steps[k].length, simulation_.bodies);
+      add();
       answer.push_back(to_rigid(solver.wrenches()));
     }
   } while (!window_->accept(answer));
+  wall_impulse_ += on_walls;
+  body_impulse_ += on_bodies;
   ++exchanges_;
   iterations_ += static_cast<std::uint64_t>(window_->iterations());
   largest_residual_ = std::max(largest_residual_, window_->residual());

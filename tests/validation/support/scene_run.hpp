@@ -40,6 +40,10 @@ class SceneRun {
   // Iterations of all exchanges, and exchanges.
   [[nodiscard]] std::uint64_t iterations() const { return iterations_; }
   [[nodiscard]] std::uint64_t exchanges() const { return exchanges_; }
+  // What the liquid gave to the walls and to the bodies since the start [N s], by the kicks of its steps. Of
+  // the walls only where their force is measured.
+  [[nodiscard]] const Eigen::Vector3d& wall_impulse() const { return wall_impulse_; }
+  [[nodiscard]] const Eigen::Vector3d& body_impulse() const { return body_impulse_; }
   [[nodiscard]] double largest_residual() const { return largest_residual_; }
   // Of every fluid particle, in the order of snapshots [kg].
   [[nodiscard]] const std::vector<double>& masses() const { return masses_; }
@@ -63,6 +67,7 @@ class SceneRun {
   std::uint64_t step_ = 0;
   std::uint64_t iterations_ = 0, exchanges_ = 0;
   double largest_residual_ = 0;
+  Eigen::Vector3d wall_impulse_ = Eigen::Vector3d::Zero(), body_impulse_ = Eigen::Vector3d::Zero();
   double seconds_ = 0;  // wall-clock time in advance()
 };
 
