@@ -106,6 +106,11 @@ Kinematics FreeBody::finish_drift(double dt, const Drift& before, const Drift& a
       after.pose.orientation * (rotation(dt * after.angular_velocity) * q).conjugate();
   step.angular_velocity = after.angular_velocity + above_round_off(rotation_vector(turn), 0) / dt;
 
+  constraint_impulse_.force += mass_ * (after.velocity - before.velocity);
+  constraint_impulse_.moment += impulse.cwiseProduct(free_turns_);
+  constraint_work_ += 0.5 * mass_ * (after.velocity.squaredNorm() - before.velocity.squaredNorm()) +
+                      0.5 * impulse.dot(after.angular_velocity + before.angular_velocity);
+
   pose_ = after.pose;
   // q and -q are one orientation; the sign is kept so that recorded components do not jump.
   if (pose_.orientation.dot(q) < 0) pose_.orientation.coeffs() = -pose_.orientation.coeffs();
@@ -119,6 +124,11 @@ Kinematics FreeBody::finish_drift(double dt, const Drift& before, const Drift& a
 Kinematics FreeBody::state() const {
   return {pose_.position, pose_.orientation,     velocity_, angular_velocity(pose_.orientation),
           acceleration(), angular_acceleration()};
+}
+
+Account FreeBody::account() const {
+  return {
+      {mass_ * velocity_, angular_momentum_}, constraint_impulse_, constraint_work_, kinetic_energy(), mass_};
 }
 
 double FreeBody::kinetic_energy() const {

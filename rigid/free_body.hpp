@@ -30,6 +30,7 @@ class FreeBody {
   [[nodiscard]] Drift begin_drift(double dt) const { return {pose_, velocity_, drift_angular_velocity(dt)}; }
   [[nodiscard]] Kinematics state() const;
   [[nodiscard]] double kinetic_energy() const;
+  [[nodiscard]] Account account() const;
   // That of a body at rest after this impulse [J].
   [[nodiscard]] double impulse_energy(const Wrench& impulse) const;
   [[nodiscard]] double mass() const { return mass_; }
@@ -48,6 +49,8 @@ class FreeBody {
 
   Pose pose_;
   Eigen::Vector3d velocity_, angular_momentum_;
+  Wrench constraint_impulse_;
+  double constraint_work_ = 0;
   // Accelerations by contact in the last drift.
   Eigen::Vector3d contact_ = Eigen::Vector3d::Zero(), angular_contact_ = Eigen::Vector3d::Zero();
 };

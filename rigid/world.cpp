@@ -171,6 +171,9 @@ double World::impulse_energy(std::size_t body, const Wrench& impulse) const {
 Kinematics World::state(std::size_t body) const {
   return parts_->free.at(body).value().state();
 }
+Account World::account(std::size_t body) const {
+  return parts_->free.at(body).value().account();
+}
 double World::kinetic_energy(std::size_t body) const {
   return parts_->free.at(body).value().kinetic_energy();
 }

@@ -76,6 +76,8 @@ class World {
   [[nodiscard]] bool has_free_bodies() const;
   // State at the end of the last whole step, with the velocities at that instant. For free bodies.
   [[nodiscard]] Kinematics state(std::size_t body) const;
+  // Of a free body, at the same time.
+  [[nodiscard]] Account account(std::size_t body) const;
   // Kinetic energy of a free body at the end of the last whole step [J].
   [[nodiscard]] double kinetic_energy(std::size_t body) const;
 

@@ -96,11 +96,12 @@ void Coupling::answer(std::uint64_t step) {
   step_ = step;
   if (bodies_ == 0) return;
   const std::span<const fluid::Wrench> wrenches = simulation_.solver->wrenches();
+  if (options_.expect_recorder)
+    log_.add(step, rows_, wrenches, simulation_.solver->wrench_parts(), exchange_.ledger());
   if (std::optional<Message> reply = exchange_.answer(step, wrenches)) {
     stamp(reply->header);
     session_.send(RIGID, std::move(*reply));
   }
-  if (options_.expect_recorder) log_.add(step, rows_, wrenches, simulation_.solver->wrench_parts());
 }
 
 bool Coupling::repeats() {

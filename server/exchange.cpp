@@ -36,8 +36,13 @@ std::optional<Message> Exchange::accept(const Message& message) {
   check(message);
   const Kinematics& content = message.header.kinematics();
   const std::span<const double> rows = message.array<double>("kinematics");
-  batches_.push_back(
-      {sequence, content.first_step(), content.count(), content.iteration(), {rows.begin(), rows.end()}, {}});
+  batches_.push_back({sequence,
+                      content.first_step(),
+                      content.count(),
+                      content.iteration(),
+                      {rows.begin(), rows.end()},
+                      read_ledger(message),
+                      {}});
   last_sequence_ = sequence;
   last_step_ = content.first_step() + content.count() - 1;
   return std::nullopt;
@@ -144,6 +149,31 @@ bool Exchange::has(std::uint64_t step) const {
   if (batches_.empty()) return false;
   const Batch& batch = batches_.front();
   return batch.first_step <= step && step < batch.first_step + batch.count;
+}
+
+std::vector<double> Exchange::read_ledger(const Message& message) const {
+  std::vector<double> ledger(bodies_ * kLedgerRow, 0.0);
+  const auto& arrays = message.header.array();
+  const bool present =
+      std::any_of(arrays.begin(), arrays.end(), [](const Array& a) { return a.name() == "ledger"; });
+  if (!present) return ledger;
+  try {
+    const std::span<const double> given = message.array<double>("ledger");
+    if (given.size() != ledger.size() ||
+        !std::all_of(given.begin(), given.end(), [](double x) { return std::isfinite(x); }))
+      throw Refused(Refusal::BAD_MESSAGE,
+                    fmt::format("array ledger has {} values; {} finite ones are allowed, {} a body",
+                                given.size(), ledger.size(), kLedgerRow));
+    ledger.assign(given.begin(), given.end());
+  } catch (const protocol::ProtocolError& error) {
+    throw Refused(Refusal::BAD_MESSAGE, error.what());
+  }
+  return ledger;
+}
+
+std::span<const double> Exchange::ledger() const {
+  assert(!batches_.empty());
+  return batches_.front().ledger;
 }
 
 std::uint64_t Exchange::last_step() const {

@@ -45,6 +45,9 @@ class Exchange {
   // The rows they came in, bit for bit.
   [[nodiscard]] std::span<const double> rows(std::uint64_t step) const;
 
+  // The ledger that came with them; zeros where none did.
+  [[nodiscard]] std::span<const double> ledger() const;
+
   // Notes the fluid's action at the end of a step; the reply when it was the last of its message.
   std::optional<protocol::Message> answer(std::uint64_t step, std::span<const fluid::Wrench> wrenches);
 
@@ -60,12 +63,14 @@ class Exchange {
     std::uint64_t sequence, first_step, count;
     std::uint32_t iteration;
     std::vector<double> kinematics;
+    std::vector<double> ledger;
     std::vector<double> wrenches;
   };
 
   void check(const protocol::Message& message) const;
   void check_turn(const Kinematics& content) const;
   [[nodiscard]] std::uint64_t most_steps(const Kinematics& content) const;
+  [[nodiscard]] std::vector<double> read_ledger(const protocol::Message& message) const;
   void check_rows(std::span<const double> rows, std::uint64_t first_step) const;
   [[nodiscard]] protocol::Message reply(const Batch& batch) const;
 

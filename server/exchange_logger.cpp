@@ -14,7 +14,8 @@ void move_to(std::vector<double>& to, std::vector<double>& from) {
 }  // namespace
 
 void ExchangeLogger::add(std::uint64_t step, std::span<const double> kinematics,
-                         std::span<const fluid::Wrench> wrenches, std::span<const fluid::WrenchParts> parts) {
+                         std::span<const fluid::Wrench> wrenches, std::span<const fluid::WrenchParts> parts,
+                         std::span<const double> ledger) {
   if (rows_.count + pending_.count == 0) first_step_ = step;
   assert(step == first_step_ + rows_.count + pending_.count);
   pending_.kinematics.insert(pending_.kinematics.end(), kinematics.begin(), kinematics.end());
@@ -23,6 +24,7 @@ void ExchangeLogger::add(std::uint64_t step, std::span<const double> kinematics,
     append(pending_.parts, part.viscous);
     append(pending_.parts, part.guard);
   }
+  pending_.ledger.insert(pending_.ledger.end(), ledger.begin(), ledger.end());
   ++pending_.count;
 }
 
@@ -32,6 +34,7 @@ void ExchangeLogger::accept(std::uint32_t iterations, double residual) {
   move_to(rows_.kinematics, pending_.kinematics);
   move_to(rows_.wrenches, pending_.wrenches);
   move_to(rows_.parts, pending_.parts);
+  move_to(rows_.ledger, pending_.ledger);
   rows_.count += pending_.count;
   pending_.count = 0;
 }
@@ -50,6 +53,7 @@ std::optional<protocol::Message> ExchangeLogger::take() {
   message.add_array<double>("wrenches", rows_.wrenches, {rows_.count, bodies_, kWrenchRow});
   message.add_array<double>("coupling", coupling_, {rows_.count, 2});
   message.add_array<double>("wrench_parts", rows_.parts, {rows_.count, bodies_, 2 * kWrenchRow});
+  message.add_array<double>("ledger", rows_.ledger, {rows_.count, bodies_, kLedgerRow});
   rows_ = {};
   coupling_.clear();
   return message;

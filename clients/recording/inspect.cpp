@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "clients/recording/ledger.hpp"
+
 namespace sluice::clients {
 namespace {
 
@@ -61,6 +63,29 @@ Json energy(const Reader& recording, std::uint64_t frame) {
           {"max_compression", values.max_compression()}};
 }
 
+Json vector(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+Json ledger_json(const std::vector<BodyLedger>& bodies) {
+  Json list = Json::array();
+  for (const BodyLedger& body : bodies) {
+    Json entry = {{"body", body.name}, {"time", body.time}};
+    for (const auto& [name, part] : body.impulses)
+      entry["impulse"][name] = {{"force", vector(part.force)}, {"moment", vector(part.moment)}};
+    entry["work_of_liquid"] = body.work_of_liquid;
+    if (body.is_free) {
+      entry["momentum_change"] = vector(body.momentum_change);
+      entry["third_law_residual"] = body.third_law_residual;
+      entry["energy_created"] = body.energy_created;
+      entry["iterations"] = {{"mean", body.mean_iterations}, {"most", body.most_iterations}};
+      entry["largest_residual"] = body.largest_residual;
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 // Everything there is to say; the text shows the same.
 Json describe(const Reader& recording) {
   const Welcome& welcome = recording.welcome();
@@ -93,6 +118,8 @@ Json describe(const Reader& recording) {
     result["first"] = energy(recording, 0);
     result["last"] = energy(recording, frames - 1);
   }
+  if (recording.exchanges() > 0 && recording.frames() > 0 && recording.scene().body_size() > 0)
+    result["ledger"] = ledger_json(read_ledgers(recording));
   return result;
 }
 
@@ -154,6 +181,8 @@ std::string inspect(const Reader& recording) {
     result += line("first", energy_line(all["first"]));
     result += line("last", energy_line(all["last"]));
   }
+  if (recording.exchanges() > 0 && recording.frames() > 0 && recording.scene().body_size() > 0)
+    for (const BodyLedger& body : read_ledgers(recording)) result += to_text(body);
   result += line("ended", ending_line(recording));
   result += line("run", fmt::format("{}, {:.1f} s wall clock", recording.run_id(), recording.wall_seconds()));
   result += line("build", fmt::format("sluice {}, {}, {}, {} threads", welcome.build().version(),

@@ -68,6 +68,12 @@ class RecordedRigid {
     return clock_.exchange_end(sent_ + 1, most) - sent_;
   }
 
+  static void add_ledger(Message& message, const Message& log) {
+    const std::vector<std::uint64_t> shape = log.shape("ledger");
+    message.add_array<double>("ledger", log.array<double>("ledger").first(shape[1] * shape[2]),
+                              {shape[1], shape[2]});
+  }
+
   // The motion recorded is that of the last iteration.
   void take_answer() {
     --unanswered_;
@@ -94,6 +100,7 @@ class RecordedRigid {
     message.header.mutable_kinematics()->set_first_step(sent_ + 1);
     message.header.mutable_kinematics()->set_count(count);
     message.add_array<double>("kinematics", log.array<double>("kinematics"), log.shape("kinematics"));
+    if (lock_step_) add_ledger(message, log);
     connection_.send(std::move(message));
     sent_ += count;
     last_count_ = count;

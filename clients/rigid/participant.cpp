@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kRow = 19;        // doubles of a body's kinematics
 constexpr std::size_t kWrenchRow = 6;   // doubles of a body's wrench
+constexpr std::size_t kLedgerRow = 15;  // doubles of a body's ledger
 constexpr std::uint32_t kBatch = 64;    // steps of a message when streaming
 constexpr std::size_t kUnanswered = 2;  // batches on their way when streaming
 
@@ -128,6 +129,7 @@ class Participant {
     for (std::uint64_t step = batch.first_step; step < batch.first_step + batch.count; ++step)
       steps.push_back({protocol::seconds(clock_.time(step)), duration(step)});
     window_.begin(std::move(steps));
+    note_ledger();
     while (true) {
       std::vector<double> rows;
       for (const Window::Motion& motion : window_.predict())
@@ -139,6 +141,18 @@ class Participant {
     }
     if (is_iterated()) say_accepted(batch);
     return true;
+  }
+
+  void note_ledger() {
+    ledger_.clear();
+    for (std::size_t b = 0; b < world_.size(); ++b) {
+      const rigid::Account account = world_.is_free(b) ? world_.account(b) : rigid::Account{};
+      for (const rigid::Wrench& pair : {account.momentum, account.constraint_impulse}) {
+        ledger_.insert(ledger_.end(), pair.force.begin(), pair.force.end());
+        ledger_.insert(ledger_.end(), pair.moment.begin(), pair.moment.end());
+      }
+      ledger_.insert(ledger_.end(), {account.constraint_work, account.kinetic_energy, account.mass});
+    }
   }
 
   void say_accepted(const Batch& batch) {
@@ -185,6 +199,7 @@ class Participant {
     message.header.mutable_kinematics()->set_count(batch.count);
     message.header.mutable_kinematics()->set_iteration(iteration);
     message.add_array<double>("kinematics", rows, {batch.count, world_.size(), kRow});
+    if (world_.has_free_bodies()) message.add_array<double>("ledger", ledger_, {world_.size(), kLedgerRow});
     link_.send(std::move(message));
     unanswered_.push_back(batch);
   }
@@ -221,6 +236,7 @@ class Participant {
   protocol::StepClock clock_;
   Coupling coupling_;
   Window window_;
+  std::vector<double> ledger_;  // at the beginning of the exchange
   std::uint64_t exchanges_ = 0, iterations_ = 0, given_up_ = 0;
   double largest_residual_ = 0;
   std::uint64_t sequence_ = 0;

@@ -120,6 +120,7 @@ Message FakeRun::exchange_log(std::uint64_t index) const {
   add(message, "wrenches", noise(steps_per_frame * m * 6, 2000 + index), {steps_per_frame, m, 6});
   add(message, "coupling", noise(steps_per_frame * 2, 3000 + index), {steps_per_frame, 2});
   add(message, "wrench_parts", noise(steps_per_frame * m * 12, 4000 + index), {steps_per_frame, m, 12});
+  add(message, "ledger", noise(steps_per_frame * m * 15, 5000 + index), {steps_per_frame, m, 15});
   return message;
 }
 
