@@ -23,7 +23,6 @@ struct FloatResult {
   Curve force;            // upward, at every exchange [N/m]
   double weight = 0;      // [N/m]
   double iterations = 0;  // an exchange
-  double energy = 0;      // created at the interface over the work exchanged
 };
 
 // Draft [m] at which the body displaces its weight.
