@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <cassert>
 
+#include "fluid/boundary_order.hpp"
+#include "fluid/group_list.hpp"
+
 namespace sluice::fluid {
 
 template <int Dim>
 BoundaryParticles<Dim>::BoundaryParticles(const Setup& setup) {
-  append(setup.walls, setup.liquid.density);
-  for (const Boundary& body : setup.bodies) append(body, setup.liquid.density);
+  const double cell = group_edge<Dim>(setup.spacing);
+  const Boundary walls = in_rows<Dim>(setup.walls, cell);
+  append(walls, setup.liquid.density);
+  for (const Boundary& body : setup.bodies) append(in_rows<Dim>(body, cell), setup.liquid.density);
   first_.push_back(node_.size());
   velocity_.assign(size(), Vec<Dim>::Zero());
-  for (std::size_t w = 0; w < setup.walls.velocity.size(); ++w)
-    velocity_[w] = narrow<Dim>(setup.walls.velocity[w]);
+  for (std::size_t w = 0; w < walls.velocity.size(); ++w) velocity_[w] = narrow<Dim>(walls.velocity[w]);
   acceleration_.assign(size(), Vec<Dim>::Zero());
   pressure.assign(size(), 0.0);
   dilation.assign(size(), 1.0);

@@ -42,49 +42,72 @@ Mat<Dim> boundary_stress(const Model<Dim, Kernel>& model, const Particles<Dim>& 
   return reflection * mean * reflection;
 }
 
+// Sums over the fluid f near a boundary particle w:
+//   W (p_f + dp) and W (rho_f + dp/c0^2),   dp = rho_f (g - a_w) . n n . x_wf the hydrostatic continuation,
+//   W V_f,   W rho_f u^2/2 with u the speed of approach.
+template <int Dim>
+struct NearState {
+  Extrapolation<Dim, 2> state;  // pressure and density
+  double volume = 0, dynamic = 0;
+};
+
+// (g - a_w) . n n [m/s^2], across the surface.
+template <int Dim, typename Kernel>
+Vec<Dim> pull_across(const Model<Dim, Kernel>& model, const BoundaryParticles<Dim>& boundary, std::size_t w) {
+  return boundary.surface(w).across * (model.gravity - boundary.acceleration(w));
+}
+
 // What a boundary particle w takes over from the fluid: pressure and density, continued along the surface and
 // with the hydrostatic gradient in the boundary's own frame across it (after S. Adami, X. Hu, N. Adams,
 // J. Comput. Phys. 231, 2012, eq. 27, where the gradient along the surface is hydrostatic too),
 //   p_w = sum_f (p_f + rho_f (g - a_w) . n n . x_wf) W_wf / sum_f W_wf + slope . (x_wf)_along,
-// rho_w alike with dp/c0^2; and volume ratio, averaged, and viscous stress. Tension is not passed on: a wall
-// does not hold the fluid.
+// rho_w alike with dp/c0^2; and volume ratio, averaged. Tension is not passed on: a wall does not hold the
+// fluid. Returns the wetness.
 template <int Dim, typename Kernel>
-void extrapolate(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid,
-                 std::span<const std::uint32_t> neighbors, std::size_t w, BoundaryParticles<Dim>& boundary) {
+double take_over(const Model<Dim, Kernel>& model, const NearState<Dim>& near, std::size_t w,
+                 BoundaryParticles<Dim>& boundary) {
   Node<Dim>& node = boundary.node()[w];
-  const Surface<Dim>& surface = boundary.surface(w);
-  const Vec<Dim> g_minus_a = model.gravity - boundary.acceleration(w);
-  const Vec<Dim> pull = surface.across * g_minus_a;
-  const double per_c2 = 1.0 / (model.eos.sound_speed() * model.eos.sound_speed());
-  Extrapolation<Dim, 2> state;  // pressure and density
-  double sum_V = 0, sum_dynamic = 0;
-  for (const std::uint32_t f : neighbors) {
-    const Node<Dim>& n = fluid.node[f];
-    const Vec<Dim> x_fw = n.x - node.x;
-    const double r2 = x_fw.squaredNorm();
-    const double W = model.kernel.value(x_fw);
-    const double dp = -n.rho * pull.dot(x_fw);
-    const double approach = std::max(0.0, (boundary.velocity(w) - n.v).dot(x_fw));
-    state.add(W, x_fw, {fluid.fit[f].floored ? 0.0 : fluid.pressure[f] + dp, n.rho + dp * per_c2});
-    sum_V += W * n.volume;
-    sum_dynamic += W * 0.5 * n.rho * approach * approach / (r2 + model.tiny_r2);
-  }
+  const Extrapolation<Dim, 2>& state = near.state;
   if (state.empty()) {
     boundary.pressure[w] = 0.0;
     boundary.dilation[w] = 1.0;
     node.rho = model.eos.rest_density();
-    if (!boundary.stress.empty()) boundary.stress[w] = Mat<Dim>::Zero();
-    return;
+    return 0.0;
   }
   const double per_W = 1.0 / state.weight();
-  const Vec<Dim> along = state.centroid() - surface.across * state.centroid();
+  const Vec<Dim> along = state.centroid() - boundary.surface(w).across * state.centroid();
   const Eigen::Vector2d at_w = state.mean() - state.slope(model.moment_floor) * along;
-  const double wet = wetness(model, at_w[0] + sum_dynamic * per_W, g_minus_a.norm());
+  const double acceleration = (model.gravity - boundary.acceleration(w)).norm();
+  const double wet = wetness(model, at_w[0] + near.dynamic * per_W, acceleration);
   boundary.pressure[w] = wet * std::max(0.0, at_w[0]);
-  boundary.dilation[w] = wet * sum_V * per_W / model.first_volume;
+  boundary.dilation[w] = wet * near.volume * per_W / model.first_volume;
   node.rho = at_w[1];
-  if (!boundary.stress.empty())
-    boundary.stress[w] = wet * boundary_stress(model, fluid, neighbors, w, boundary);
+  return wet;
+}
+
+// The same from the fluid particles near, with the viscous stress.
+template <int Dim, typename Kernel>
+void extrapolate(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid,
+                 std::span<const std::uint32_t> neighbors, std::size_t w, BoundaryParticles<Dim>& boundary) {
+  const Vec<Dim> pull = pull_across(model, boundary, w);
+  const double per_c2 = 1.0 / (model.eos.sound_speed() * model.eos.sound_speed());
+  NearState<Dim> near;
+  for (const std::uint32_t f : neighbors) {
+    const Node<Dim>& n = fluid.node[f];
+    const Vec<Dim> x_fw = n.x - boundary.node()[w].x;
+    const double r2 = x_fw.squaredNorm();
+    const double W = model.kernel.value(x_fw);
+    const double dp = -n.rho * pull.dot(x_fw);
+    const double approach = std::max(0.0, (boundary.velocity(w) - n.v).dot(x_fw));
+    near.state.add(W, x_fw, {fluid.fit[f].floored ? 0.0 : fluid.pressure[f] + dp, n.rho + dp * per_c2});
+    near.volume += W * n.volume;
+    near.dynamic += W * 0.5 * n.rho * approach * approach / (r2 + model.tiny_r2);
+  }
+  const double wet = take_over(model, near, w, boundary);
+  if (boundary.stress.empty()) return;
+  boundary.stress[w] = near.state.empty()
+                           ? Mat<Dim>(Mat<Dim>::Zero())
+                           : Mat<Dim>(wet * boundary_stress(model, fluid, neighbors, w, boundary));
 }
 
 }  // namespace sluice::fluid

@@ -12,8 +12,9 @@
 
 namespace sluice::fluid {
 
-// Cubic cells over a box; items are filed by cell with a counting sort. Row-major, x fastest, so that the
-// cells of a row are consecutive and a neighbourhood is 3^(Dim-1) contiguous ranges.
+// Cubic cells over a box; items are filed by cell with a counting sort and by x within a cell. Cells are
+// numbered row by row along x, to and fro, so that the cells of a row are consecutive, a neighbourhood is a
+// few contiguous ranges, and items that follow each other are near each other, at the ends of rows too.
 template <int Dim>
 class CellGrid {
  public:
@@ -34,7 +35,7 @@ class CellGrid {
     for (int a = 0; a < Dim; ++a) count_[a] = 1 + static_cast<std::int64_t>((high[a] - low_[a]) / cell_);
   }
 
-  // Files the nodes: afterwards item() lists their indices cell by cell, in rising order within a cell.
+  // Files the nodes: afterwards item() lists their indices cell by cell; the order of equal x is kept.
   void file(const std::vector<Node<Dim>>& nodes) {
     const auto cells = static_cast<std::size_t>(
         std::accumulate(count_.begin(), count_.end(), std::int64_t{1}, std::multiplies<>()));
@@ -48,18 +49,20 @@ class CellGrid {
     item_.resize(nodes.size());
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
     for (std::size_t i = 0; i < nodes.size(); ++i) item_[next[cell_of[i]]++] = static_cast<std::uint32_t>(i);
+    const auto row_length = static_cast<std::size_t>(count_[0]);
+    for (std::size_t c = 0; c < cells; ++c) sort_by_x(nodes, c, (c / row_length) % 2 != 0);
   }
 
   [[nodiscard]] const std::vector<std::uint32_t>& item() const { return item_; }
 
-  // Calls visit(first, last), positions in item(), for every row of cells that meets the ball's bounding box.
-  // A ball far outside the grid meets none.
+  // Calls visit(first, last), positions in item(), for every row of cells that meets the box. A box far
+  // outside the grid meets none.
   template <typename Visit>
-  void for_rows_near(const Vec<Dim>& x, double radius, const Visit& visit) const {
+  void for_rows_in(const Vec<Dim>& low, const Vec<Dim>& high, const Visit& visit) const {
     Coordinates from, to;
     for (int a = 0; a < Dim; ++a) {
-      const double lower = std::floor((x[a] - radius - low_[a]) / cell_);
-      const double upper = std::floor((x[a] + radius - low_[a]) / cell_);
+      const double lower = std::floor((low[a] - low_[a]) / cell_);
+      const double upper = std::floor((high[a] - low_[a]) / cell_);
       const auto last = static_cast<double>(count_[a] - 1);
       if (!(upper >= 0.0 && lower <= last)) return;
       from[a] = static_cast<std::int64_t>(std::max(lower, 0.0));
@@ -87,16 +90,38 @@ class CellGrid {
     return c;
   }
 
+  // Number of the row along x; every other one runs backwards.
+  [[nodiscard]] std::int64_t row(const Coordinates& c) const {
+    if constexpr (Dim == 2)
+      return c[1];
+    else
+      return c[2] * count_[1] + (c[2] % 2 == 0 ? c[1] : count_[1] - 1 - c[1]);
+  }
+
   [[nodiscard]] std::int64_t index(const Coordinates& c) const {
-    std::int64_t i = c[Dim - 1];
-    for (int a = Dim - 2; a >= 0; --a) i = i * count_[a] + c[a];
-    return i;
+    const std::int64_t r = row(c);
+    return r * count_[0] + (r % 2 == 0 ? c[0] : count_[0] - 1 - c[0]);
   }
 
   template <typename Visit>
   void visit_row(const Coordinates& c, std::int64_t last, const Visit& visit) const {
-    const auto row = static_cast<std::size_t>(index(c));
-    visit(begin_[row], begin_[row + static_cast<std::size_t>(last - c[0]) + 1]);
+    Coordinates end = c;
+    end[0] = last;
+    const auto one = static_cast<std::size_t>(index(c)), other = static_cast<std::size_t>(index(end));
+    visit(begin_[std::min(one, other)], begin_[std::max(one, other) + 1]);
+  }
+
+  // Insertion: from one filing to the next the order hardly changes.
+  void sort_by_x(const std::vector<Node<Dim>>& nodes, std::size_t cell, bool falling) {
+    const auto before = [&](std::uint32_t i, std::uint32_t j) {
+      return falling ? nodes[i].x[0] > nodes[j].x[0] : nodes[i].x[0] < nodes[j].x[0];
+    };
+    for (std::size_t k = begin_[cell]; k < begin_[cell + 1]; ++k) {
+      const std::uint32_t moved = item_[k];
+      std::size_t to = k;
+      for (; to > begin_[cell] && before(moved, item_[to - 1]); --to) item_[to] = item_[to - 1];
+      item_[to] = moved;
+    }
   }
 
   double cell_;

@@ -13,6 +13,11 @@ class Extrapolation {
   using Values = Eigen::Matrix<double, N, 1>;
   using Slope = Eigen::Matrix<double, N, Dim>;
 
+  Extrapolation() = default;
+  // From the sums of W, of W values and of W values (x) x_fw.
+  Extrapolation(const Moments<Dim>& moments, const Values& sum, const Slope& sum_x)
+      : moments_(moments), sum_(sum), sum_x_(sum_x) {}
+
   // A fluid particle at x_fw from the boundary particle.
   void add(double W, const Vec<Dim>& x_fw, const Values& values) {
     moments_.add(W, x_fw);

@@ -38,11 +38,7 @@ Diagnostics GalerkinSolver<Dim, Kernel>::diagnostics() const {
     d.max_speed = larger(d.max_speed, node.v.norm());
     d.max_compression = larger(d.max_compression, std::abs(node.rho / model_.eos.rest_density() - 1.0));
   }
-  const auto& active = search_.active_boundary();
-  for (std::size_t a = 0; a < active.size(); ++a)
-    for (const std::uint32_t i : search_.fluid_near_active(a))
-      if (i < fluid_.size())
-        d.elastic += guard_energy<Dim>(model_, fluid_.node[i].x - boundary_.node()[active[a]].x);
+  d.elastic += stored_in_guard();
   d.boundary_work = boundary_work_;
   return d;
 }
@@ -50,28 +46,48 @@ Diagnostics GalerkinSolver<Dim, Kernel>::diagnostics() const {
 template <int Dim, typename Kernel>
 std::vector<WrenchParts> GalerkinSolver<Dim, Kernel>::wrench_parts() const {
   std::vector<WrenchParts> parts(wrench_.size() - 1);
-  const auto& active = search_.active_boundary();
-  std::vector<ReactionParts<Dim>> sum(active.size());
-  parallel_.for_each(active.size(), [&](std::size_t a) {
-    if (boundary_.body(active[a]) > 0)
-      sum[a] = reaction_parts<Dim>(model_, fluid_, search_.fluid_near_active(a), active[a], boundary_);
-  });
-  for (std::size_t a = 0; a < active.size(); ++a) {
-    if (boundary_.body(active[a]) == 0) continue;
-    const auto b = static_cast<std::size_t>(boundary_.body(active[a]) - 1);
-    const Eigen::Vector3d arm = widen<Dim>(boundary_.node()[active[a]].x) - bodies_[b].position;
-    const Eigen::Vector3d guard = widen<Dim>(sum[a].guard), viscous = widen<Dim>(sum[a].viscous.force);
+  const auto add = [&](std::size_t i, std::size_t w) {
+    if (boundary_.body(w) == 0) return;
+    const auto b = static_cast<std::size_t>(boundary_.body(w) - 1);
+    const ReactionParts<Dim> pair = reaction_parts<Dim>(model_, fluid_, i, w, boundary_);
+    const Eigen::Vector3d arm = widen<Dim>(boundary_.node()[w].x) - bodies_[b].position;
+    const Eigen::Vector3d guard = widen<Dim>(pair.guard), viscous = widen<Dim>(pair.viscous.force);
     parts[b].guard.force += guard;
     parts[b].guard.moment += arm.cross(guard);
     parts[b].viscous.force += viscous;
-    parts[b].viscous.moment += arm.cross(viscous) + sum[a].viscous.couple;
-  }
+    parts[b].viscous.moment += arm.cross(viscous) + pair.viscous.couple;
+  };
+  for_boundary_pairs(add);
   for (std::size_t b = 0; b < parts.size(); ++b) {
     const Wrench& all = wrench_[b + 1];
     parts[b].pressure.force = all.force - parts[b].guard.force - parts[b].viscous.force;
     parts[b].pressure.moment = all.moment - parts[b].guard.moment - parts[b].viscous.moment;
   }
   return parts;
+}
+
+// Calls visit(i, w) for every fluid particle, images included, near a boundary particle; maybe for some that
+// are a little farther than the support.
+template <int Dim, typename Kernel>
+template <typename Visit>
+void GalerkinSolver<Dim, Kernel>::for_boundary_pairs(const Visit& visit) const {
+  if (by_groups_) {
+    search_.groups().for_boundary_pairs(boundary_.size(), visit);
+    return;
+  }
+  const auto& active = search_.active_boundary();
+  for (std::size_t a = 0; a < active.size(); ++a)
+    for (const std::uint32_t i : search_.fluid_near_active(a)) visit(i, active[a]);
+}
+
+// Energy of the penetration guard [J].
+template <int Dim, typename Kernel>
+double GalerkinSolver<Dim, Kernel>::stored_in_guard() const {
+  double energy = 0;
+  for_boundary_pairs([&](std::size_t i, std::size_t w) {
+    if (i < fluid_.size()) energy += guard_energy<Dim>(model_, fluid_.node[i].x - boundary_.node()[w].x);
+  });
+  return energy;
 }
 
 }  // namespace sluice::fluid

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <type_traits>
+
 #include "fluid/body_step.hpp"
 #include "fluid/boundary.hpp"
 #include "fluid/checkpoint.hpp"
 #include "fluid/force_sweep.hpp"
+#include "fluid/group_stages.hpp"
 #include "fluid/history.hpp"
 #include "fluid/lagged_acceleration.hpp"
 #include "fluid/model.hpp"
@@ -20,6 +23,9 @@ namespace sluice::fluid {
 template <int Dim, typename Kernel>
 class GalerkinSolver final : public Solver {
  public:
+  // Whether the sweeps have a version by groups of particles.
+  static constexpr bool kHasGroups = std::is_same_v<Kernel, WendlandC2<Dim>>;
+
   explicit GalerkinSolver(const Setup& setup);
 
   void start(std::span<const Kinematics> bodies) override;
@@ -71,9 +77,22 @@ class GalerkinSolver final : public Solver {
                     wrench_, last_wrench_, history_, interpolated_, boundary_work_);
   }
 
+  [[nodiscard]] GroupStages<Dim> group_stages() const requires kHasGroups {
+    return {model_, search_.groups(), parallel_};
+  }
+  void compute_single_gradients();
+  void find_films();
+  void compute_reactions();
+  [[nodiscard]] std::vector<std::uint32_t> measured_groups() const;
+  template <typename Visit>
+  void for_active_boundary(const Visit& visit) const;
+
   [[nodiscard]] Vec<Dim> further_force(std::size_t i) const;
   [[nodiscard]] double inertia(std::size_t i) const;
 
+  [[nodiscard]] double stored_in_guard() const;
+  template <typename Visit>
+  void for_boundary_pairs(const Visit& visit) const;
   [[nodiscard]] bool is_measured(std::size_t w) const;
   [[nodiscard]] double boundary_power(const std::vector<Wrench>& wrench) const;
 
@@ -85,12 +104,13 @@ class GalerkinSolver final : public Solver {
   Particles<Dim> fluid_;
   BoundaryParticles<Dim> boundary_;
   NeighborSearch<Dim> search_;
+  bool by_groups_;
   Period period_;
   FreeSurface<Dim> surface_;
   Shifting<Dim> shifting_;
   std::vector<Kinematics> bodies_;
   std::vector<LaggedAcceleration> lagged_;  // per body
-  std::vector<Reaction<Dim>> reaction_;     // on the active boundary particles
+  std::vector<Reaction<Dim>> reaction_;     // on the active boundary particles, by particle
   std::vector<Wrench> wrench_;              // walls, then the bodies
   std::vector<Wrench> last_wrench_;         // of the step before
   bool measure_wall_force_;

@@ -6,9 +6,8 @@
 #include <cassert>
 #include <numeric>
 
-#include "fluid/boundary_sweep.hpp"
-#include "fluid/boundary_velocity.hpp"
 #include "fluid/damped_viscosity.hpp"
+#include "fluid/galerkin_boundary.hpp"
 #include "fluid/galerkin_results.hpp"
 #include "fluid/galerkin_rollback.hpp"
 #include "fluid/galerkin_solver.hpp"
@@ -29,7 +28,23 @@ namespace stages {
 
 // Neighbour lists reach this share of the support beyond it: the optimum between longer lists and rarer
 // rebuilds was flat between 0.1 and 0.2 in a developed dam break.
-inline constexpr double kSkin = 0.15;
+inline constexpr double kSkin = 0.1;
+
+// Whether the sweeps go by groups of particles (group_stages.hpp) and not by single ones.
+template <int Dim, typename Kernel>
+bool goes_by_groups(const Formulation& formulation) {
+  return GalerkinSolver<Dim, Kernel>::kHasGroups && formulation.internal_force == InternalForce::galerkin &&
+         formulation.viscous_force == ViscousForce::stress && formulation.mass == Mass::physical &&
+         formulation.interpolated_motion == 0.0 && !formulation.initial_parameters &&
+         !formulation.tension_control;
+}
+
+template <int Dim, typename Kernel>
+SearchPlan search_plan(const Setup& setup) {
+  const bool groups = goes_by_groups<Dim, Kernel>(setup.formulation);
+  const bool singles = !groups || setup.has_viscous_stress() || setup.formulation.shifting > 0.0;
+  return {.singles = singles, .groups = groups, .cell = group_edge<Dim>(setup.spacing)};
+}
 
 template <int Dim>
 Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos) {
@@ -76,7 +91,8 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       fluid_(stages::make_particles<Dim>(setup, model_.eos)),
       boundary_(setup),
       search_(model_.kernel.support() + model_.extra_reach, stages::kSkin * model_.kernel.support(),
-              setup.period),
+              setup.period, stages::search_plan<Dim, Kernel>(setup)),
+      by_groups_(stages::goes_by_groups<Dim, Kernel>(setup.formulation)),
       period_(setup.period),
       shifting_(setup.formulation.shifting),
       bodies_(setup.bodies.size()),
@@ -189,20 +205,24 @@ void GalerkinSolver<Dim, Kernel>::move_boundary(double dt, std::span<const Kinem
   boundary_.move(bodies_);
 }
 
-template <int Dim, typename Kernel>
-void GalerkinSolver<Dim, Kernel>::mirror_velocities() {
-  const auto& active = search_.active_boundary();
-  parallel_.for_each(active.size(), [&](std::size_t a) {
-    mirror_velocity<Dim>(model_, fluid_, search_.fluid_near_active(a), active[a], boundary_);
-  });
-}
-
 // Sweep 1.
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::compute_gradients() {
-  if constexpr (!Operator<Dim, Kernel>::kIsDefault) coefficients_.resize(fluid_.size());
+  if constexpr (kHasGroups)
+    if (by_groups_) group_stages().compute_gradients(boundary_, fluid_);
+  if (!by_groups_) compute_single_gradients();
   // Corrected SPH threw a single particle of a splash out by it.
-  const bool looks_for_films = Operator<Dim, Kernel>::kIsDefault && !bodies_.empty();
+  if (Operator<Dim, Kernel>::kIsDefault && !bodies_.empty()) find_films();
+  if (!boundary_.sticks()) return;
+  parallel_.for_each(fluid_.size(), [&](std::size_t i) {
+    fluid_.source[i].strain +=
+        sticking_strain<Dim>(model_, fluid_, i, search_.boundary_near_fluid(i), boundary_);
+  });
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::compute_single_gradients() {
+  if constexpr (!Operator<Dim, Kernel>::kIsDefault) coefficients_.resize(fluid_.size());
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
     FirstSweep<Dim, Kernel> sweep(model_, fluid_.node[i]);
     sweep.gather(search_.fluid_near_fluid(i), fluid_.node);
@@ -210,16 +230,22 @@ void GalerkinSolver<Dim, Kernel>::compute_gradients() {
     const auto gradients = sweep.finish();
     if constexpr (!Operator<Dim, Kernel>::kIsDefault) coefficients_[i] = gradients.coefficients;
     fluid_.fit[i] = gradients.fit;
-    if (looks_for_films &&
-        is_wedged<Dim>(model_, fluid_.node[i].x, search_.boundary_near_fluid(i), boundary_))
-      fluid_.fit[i].floored = true;
     fluid_.source[i].grad_rho = gradients.grad_rho;
     fluid_.divergence[i] = gradients.L.trace();
     fluid_.source[i].strain = strain_rate<Dim>(gradients.L);
-    if (boundary_.sticks())
-      fluid_.source[i].strain +=
-          sticking_strain<Dim>(model_, fluid_, i, search_.boundary_near_fluid(i), boundary_);
     if (shifting_.is_used()) fluid_.L[i] = gradients.L;
+  });
+}
+
+// Films between surfaces count as spray (wedged.hpp).
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::find_films() {
+  parallel_.for_each(fluid_.size(), [&](std::size_t i) {
+    std::vector<std::uint32_t> buffer;
+    const auto near =
+        by_groups_ ? search_.groups().boundary_near_particle(i, buffer) : search_.boundary_near_fluid(i);
+    if (!near.empty() && is_wedged<Dim>(model_, fluid_.node[i].x, near, boundary_))
+      fluid_.fit[i].floored = true;
   });
 }
 
@@ -269,17 +295,11 @@ void GalerkinSolver<Dim, Kernel>::compute_stress() {
   search_.halo().refresh_sources(fluid_);
 }
 
-template <int Dim, typename Kernel>
-void GalerkinSolver<Dim, Kernel>::extrapolate_to_boundary() {
-  const auto& active = search_.active_boundary();
-  parallel_.for_each(active.size(), [&](std::size_t a) {
-    extrapolate<Dim>(model_, fluid_, search_.fluid_near_active(a), active[a], boundary_);
-  });
-}
-
 // Sweep 2.
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::compute_forces() {
+  if constexpr (kHasGroups)
+    if (by_groups_) return group_stages().compute_forces(boundary_, fluid_);
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
     ForceSweep<Dim, Kernel> sweep(model_, fluid_, i);
     sweep.gather_fluid(search_.fluid_near_fluid(i));
@@ -311,72 +331,15 @@ double GalerkinSolver<Dim, Kernel>::inertia(std::size_t i) const {
   return fluid_.mass[i];
 }
 
-template <int Dim, typename Kernel>
-void GalerkinSolver<Dim, Kernel>::collect_wrenches() {
-  const auto& active = search_.active_boundary();
-  reaction_.resize(active.size());
-  parallel_.for_each(active.size(), [&](std::size_t a) {
-    if (!is_measured(active[a])) return;
-    const auto near = search_.fluid_near_active(a);
-    reaction_[a] = reaction<Dim>(model_, fluid_, near, active[a], boundary_);
-    if constexpr (Operator<Dim, Kernel>::kIsDefault)
-      if (is_symmetrized_)
-        add_symmetrized_reaction<Dim>(model_, fluid_, near, active[a], boundary_, reaction_[a]);
-    if constexpr (HasLaplacian<Kernel, Dim>)
-      if (is_damped_)
-        add_damped_reaction<Dim>(model_, fluid_, near, boundary_.node()[active[a]], reaction_[a]);
-  });
-  wrench_.assign(wrench_.size(), Wrench{});
-  for (std::size_t a = 0; a < active.size(); ++a) {
-    if (!is_measured(active[a])) continue;
-    const auto body = static_cast<std::size_t>(boundary_.body(active[a]));
-    const Eigen::Vector3d center = body == 0 ? Eigen::Vector3d::Zero() : bodies_[body - 1].position;
-    const Eigen::Vector3d arm = widen<Dim>(boundary_.node()[active[a]].x) - center;
-    const Eigen::Vector3d force = widen<Dim>(reaction_[a].force);
-    wrench_[body].force += force;
-    wrench_[body].moment += arm.cross(force) + reaction_[a].couple;
-  }
-}
-
-// Boundary particles of bodies always, of the walls on request, and those only once: not beyond a periodic
-// side.
-template <int Dim, typename Kernel>
-bool GalerkinSolver<Dim, Kernel>::is_measured(std::size_t w) const {
-  if (boundary_.body(w) > 0) return true;
-  if (!measure_wall_force_) return false;
-  const Vec<Dim>& x = boundary_.node()[w].x;
-  for (int a = 0; a < Dim; ++a)
-    if (period_.length[a] > 0.0 && (x[a] < period_.lower[a] || x[a] >= period_.lower[a] + period_.length[a]))
-      return false;
-  return true;
-}
-
 // V = m/rho, for the next step: until here sweep 2 needed the volumes of sweep 1.
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::update_volumes() {
   if (weights_ == Weights::kernel_and_volume)
     parallel_.for_each(fluid_.size(),
                        [&](std::size_t i) { fluid_.node[i].volume = fluid_.mass[i] / fluid_.node[i].rho; });
-  for (const std::uint32_t w : search_.active_boundary()) {
-    Node<Dim>& node = boundary_.node()[w];
-    node.volume = boundary_.sampled_volume(w) * boundary_.dilation[w];
-  }
-}
-
-// Power of the bodies on the fluid [W], from the wrenches at an end of the step and the velocities over it:
-// the body moves by dt v under the mean of the two, which is what its own kinetic energy sees.
-template <int Dim, typename Kernel>
-double GalerkinSolver<Dim, Kernel>::boundary_power(const std::vector<Wrench>& wrench) const {
-  double power = 0;
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    power -=
-        wrench[b + 1].force.dot(bodies_[b].velocity) + wrench[b + 1].moment.dot(bodies_[b].angular_velocity);
-  return power;
-}
-
-template <int Dim, typename Kernel>
-std::span<const Wrench> GalerkinSolver<Dim, Kernel>::wrenches() const {
-  return std::span<const Wrench>(wrench_).subspan(1);
+  for_active_boundary([&](std::size_t w) {
+    boundary_.node()[w].volume = boundary_.sampled_volume(w) * boundary_.dilation[w];
+  });
 }
 
 template <int Dim, typename Kernel>

@@ -35,6 +35,9 @@ class WendlandC2 {
 
   [[nodiscard]] double support() const { return 2.0 * h_; }
   [[nodiscard]] double at_zero() const { return amplitude_; }
+  [[nodiscard]] double half_inverse_h() const { return half_inverse_h_; }
+  // F at zero [1/m^(Dim+2)].
+  [[nodiscard]] double slope() const { return slope_; }
 
   [[nodiscard]] double value(const Vec<Dim>& x) const { return value(x.squaredNorm()); }
   [[nodiscard]] ValueAndSlope value_and_slope(const Vec<Dim>& x) const {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 
 #include "fluid/types.hpp"
 
@@ -69,15 +71,24 @@ bool eigenvalues_above(const Mat<Dim>& a, double bound) {
 }
 
 // The matrix with the eigenvalues of C raised to at least `floor`, inverted; `floored` says whether that was
-// needed.
+// needed. Square roots only, so its bits do not depend on the processor's libm. In the plane, with the mean
+// of the eigenvalues l and half their difference r, f(l) = 1/max(l, floor):
+//   G = (f(l+r) + f(l-r))/2 I + (f(l+r) - f(l-r))/(2r) (C - l I).
 template <int Dim>
 Mat<Dim> floored_inverse(const Mat<Dim>& C, double floor, bool& floored) {
   floored = !eigenvalues_above<Dim>(C, floor);
   if (!floored) return symmetric_inverse<Dim>(C);
-  // The iterative solver: square roots only, so its bits do not depend on the processor's libm.
-  const Eigen::SelfAdjointEigenSolver<Mat<Dim>> eigen(C);
-  const Vec<Dim> inverse = eigen.eigenvalues().cwiseMax(floor).cwiseInverse();
-  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+  if constexpr (Dim == 2) {
+    const double mean = 0.5 * (C(0, 0) + C(1, 1)), half = 0.5 * (C(0, 0) - C(1, 1));
+    const double r = std::sqrt(half * half + C(0, 1) * C(0, 1));
+    const double most = 1.0 / std::max(mean - r, floor), least = 1.0 / std::max(mean + r, floor);
+    const double slope = most > least ? 0.5 * (least - most) / r : 0.0;
+    return 0.5 * (most + least) * Mat<2>::Identity() + slope * (C - mean * Mat<2>::Identity());
+  } else {
+    const Eigen::SelfAdjointEigenSolver<Mat<Dim>> eigen(C);
+    const Vec<Dim> inverse = eigen.eigenvalues().cwiseMax(floor).cwiseInverse();
+    return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+  }
 }
 
 // The fit from the moments, with the eigenvalues of C raised to at least `floor` [the unit of C]. Whatever G

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "fluid/thin_plate.hpp"
+#include "fluid/visibility.hpp"
 
 namespace sluice::fluid {
 
@@ -46,29 +46,6 @@ void sort(Particles<Dim>& fluid, const std::vector<std::uint32_t>& order) {
   permute(fluid.id, order);
 }
 
-// Fluid particles that a plate's rule can concern, per plate.
-template <int Dim>
-std::vector<std::uint8_t> near_any_plate(const Particles<Dim>& fluid, const std::vector<Plate<Dim>>& plates,
-                                         double reach) {
-  std::vector<std::uint8_t> near(plates.empty() ? 0 : fluid.size(), 0);
-  for (std::size_t i = 0; i < near.size(); ++i)
-    for (const Plate<Dim>& plate : plates)
-      if (is_near(plate, fluid.node[i].x, reach)) near[i] = 1;
-  return near;
-}
-
-template <int Dim>
-bool separated(const std::vector<Plate<Dim>>& plates, const Vec<Dim>& x, const Vec<Dim>& y) {
-  return std::any_of(plates.begin(), plates.end(), [&](const auto& plate) { return separates(plate, x, y); });
-}
-
-// Whether fluid at x and boundary particle w act on each other.
-template <int Dim>
-bool visible(const BoundaryParticles<Dim>& boundary, std::size_t w, const Vec<Dim>& x) {
-  const std::int32_t plate = boundary.plate(w);
-  return plate < 0 || sees_face(boundary.plates()[static_cast<std::size_t>(plate)], boundary.face(w), x);
-}
-
 }  // namespace
 
 template <int Dim>
@@ -97,40 +74,53 @@ void NeighborSearch<Dim>::rebuild(Particles<Dim>& fluid, const BoundaryParticles
   const double reach = support_ + skin_;
   Halo<Dim>::remove(fluid);
   halo_.wrap(fluid);
-  CellGrid<Dim> cells(fluid.node, reach);
+  CellGrid<Dim> cells(fluid.node, cell_);
   cells.file(fluid.node);
   sort(fluid, cells.item());
   // Now particle k of the sorted order is item k of the grid, and image k after the particles item k of its.
   const std::vector<Node<Dim>> images = halo_.find(fluid);
-  CellGrid<Dim> image_cells(images, reach);
+  CellGrid<Dim> image_cells(images, cell_);
   image_cells.file(images);
   halo_.append(fluid, image_cells.item());
+  const SearchGrids<Dim> grids{cells, image_cells, !images.empty()};
+  const Visibility<Dim> visibility(fluid, boundary, reach);
+  if (plan_.singles) list_singles(fluid, boundary, grids, visibility, parallel);
+  if (plan_.groups) groups_.rebuild(fluid, boundary, grids, visibility, reach, cell_, parallel);
+
+  fluid_at_build_.resize(fluid.size());
+  for (std::size_t i = 0; i < fluid.size(); ++i) fluid_at_build_[i] = fluid.node[i].x;
+  boundary_at_build_.resize(boundary.size());
+  for (std::size_t w = 0; w < boundary.size(); ++w) boundary_at_build_[w] = boundary.node()[w].x;
+  ++rebuilds_;
+}
+
+template <int Dim>
+void NeighborSearch<Dim>::list_singles(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
+                                       const SearchGrids<Dim>& grids, const Visibility<Dim>& visibility,
+                                       const Parallel& parallel) {
+  const double reach = support_ + skin_;
   const auto for_fluid_near = [&](const Vec<Dim>& x, const auto& visit) {
     const auto visit_row = [&](std::uint32_t first, std::uint32_t last) {
       for (std::uint32_t j = first; j < last; ++j)
         if ((fluid.node[j].x - x).squaredNorm() < reach * reach) visit(j);
     };
-    cells.for_rows_near(x, reach, visit_row);
-    if (images.empty()) return;
+    const Vec<Dim> low = x.array() - reach, high = x.array() + reach;
+    grids.fluid.for_rows_in(low, high, visit_row);
+    if (!grids.has_images) return;
     const auto n = static_cast<std::uint32_t>(fluid.size());
-    image_cells.for_rows_near(
-        x, reach, [&](std::uint32_t first, std::uint32_t last) { visit_row(n + first, n + last); });
+    grids.images.for_rows_in(
+        low, high, [&](std::uint32_t first, std::uint32_t last) { visit_row(n + first, n + last); });
   };
 
-  const std::vector<std::uint8_t> near = near_any_plate(fluid, boundary.plates(), reach);
-  const auto cut = [&](std::size_t i, std::size_t j) {
-    return !near.empty() && j < near.size() && near[i] && near[j] &&
-           separated(boundary.plates(), fluid.node[i].x, fluid.node[j].x);
-  };
   fluid_ = make_list(fluid.size(), parallel, [&](std::size_t i, const auto& emit) {
     for_fluid_near(fluid.node[i].x, [&](std::uint32_t j) {
-      if (j != i && !cut(i, j)) emit(j);
+      if (j != i && visibility.fluid_sees_fluid(i, j)) emit(j);
     });
   });
 
   const NeighborList all = make_list(boundary.size(), parallel, [&](std::size_t w, const auto& emit) {
     for_fluid_near(boundary.node()[w].x, [&](std::uint32_t j) {
-      if (visible(boundary, w, fluid.node[j].x)) emit(j);
+      if (visibility.fluid_sees_boundary(j, w)) emit(j);
     });
   });
   active_.clear();
@@ -153,12 +143,6 @@ void NeighborSearch<Dim>::rebuild(Particles<Dim>& fluid, const BoundaryParticles
   for (const std::uint32_t w : active_)
     for (const std::uint32_t j : all.of(w))
       if (!is_image(j)) boundary_.index[next[j]++] = w;
-
-  fluid_at_build_.resize(fluid.size());
-  for (std::size_t i = 0; i < fluid.size(); ++i) fluid_at_build_[i] = fluid.node[i].x;
-  boundary_at_build_.resize(boundary.size());
-  for (std::size_t w = 0; w < boundary.size(); ++w) boundary_at_build_[w] = boundary.node()[w].x;
-  ++rebuilds_;
 }
 
 template class NeighborSearch<2>;

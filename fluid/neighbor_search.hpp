@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fluid/boundary.hpp"
-#include "fluid/cell_grid.hpp"
+#include "fluid/group_search.hpp"
 #include "fluid/halo.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/particles.hpp"
@@ -22,13 +22,24 @@ struct NeighborList {
   }
 };
 
+// Which lists a search makes, and how it sorts.
+struct SearchPlan {
+  bool singles = true;  // of every particle
+  bool groups = false;  // of groups of particles (group_list.hpp)
+  double cell = 0;      // edge of the cells that the particles are sorted by [m]; 0: the reach of the search
+};
+
 // Finds all pairs within the support plus a skin, and keeps the lists until a particle may have crossed the
 // skin. Pairs that a thin plate separates are left out here, so that the sweeps need not know.
 template <int Dim>
 class NeighborSearch {
  public:
-  NeighborSearch(double support, double skin, const Period& period = {})
-      : support_(support), skin_(skin), halo_(period, halo_width(support, skin)) {}
+  NeighborSearch(double support, double skin, const Period& period = {}, const SearchPlan& plan = {})
+      : support_(support),
+        skin_(skin),
+        plan_(plan),
+        cell_(plan.cell > 0.0 ? plan.cell : support + skin),
+        halo_(period, halo_width(support, skin)) {}
 
   // Depth of the halo [m]: boundary particles up to one reach beyond a periodic side take over the state of
   // fluid up to one reach from themselves.
@@ -52,18 +63,27 @@ class NeighborSearch {
     return active_list_.of(a);
   }
 
+  // What is near groups of particles.
+  [[nodiscard]] const GroupSearch<Dim>& groups() const { return groups_; }
+
   [[nodiscard]] std::uint64_t rebuilds() const { return rebuilds_; }
 
  private:
   [[nodiscard]] bool is_stale(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
                               const Parallel& parallel) const;
   void rebuild(Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary, const Parallel& parallel);
+  void list_singles(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
+                    const SearchGrids<Dim>& grids, const Visibility<Dim>& visibility,
+                    const Parallel& parallel);
 
   double support_, skin_;
+  SearchPlan plan_;
+  double cell_;
   Halo<Dim> halo_;
   std::vector<Vec<Dim>> fluid_at_build_, boundary_at_build_;
   NeighborList fluid_, boundary_, active_list_;
   std::vector<std::uint32_t> active_;
+  GroupSearch<Dim> groups_;
   std::uint64_t rebuilds_ = 0;
 };
 

@@ -8,8 +8,6 @@
 namespace sluice::fluid {
 
 namespace {
-// Particles a task: about 50 microseconds of sweep, far above the cost of handing a task out.
-constexpr std::size_t kGrain = 256;
 using Range = tbb::blocked_range<std::size_t>;
 }  // namespace
 
@@ -21,14 +19,13 @@ struct Parallel::Arena {
 Parallel::Parallel(int threads) : arena_(new Arena{threads, tbb::task_arena(threads)}) {}
 Parallel::~Parallel() = default;
 
-void Parallel::for_blocks(std::size_t count, const Block& block) const {
-  if (arena_->threads == 1 || count <= kGrain) {
+void Parallel::for_blocks(std::size_t count, std::size_t grain, const Block& block) const {
+  if (arena_->threads == 1 || count <= grain) {
     block(0, count);
     return;
   }
-  arena_->arena.execute([&] {
-    tbb::parallel_for(Range(0, count, kGrain), [&](const Range& r) { block(r.begin(), r.end()); });
-  });
+  arena_->arena.execute(
+      [&] { tbb::parallel_for(Range(0, count, grain), [&](const Range& r) { block(r.begin(), r.end()); }); });
 }
 
 double Parallel::max_of_blocks(std::size_t count, const BlockValue& block) const {

@@ -17,10 +17,13 @@ class Parallel {
   Parallel(const Parallel&) = delete;
   Parallel& operator=(const Parallel&) = delete;
 
-  // Calls body(i) for i in 0 .. count-1.
+  // Particles a task: about 20 microseconds of sweep, far above the cost of handing a task out.
+  static constexpr std::size_t kGrain = 256;
+
+  // Calls body(i) for i in 0 .. count-1, `grain` of them a task.
   template <typename Body>
-  void for_each(std::size_t count, const Body& body) const {
-    for_blocks(count, [&body](std::size_t begin, std::size_t end) {
+  void for_each(std::size_t count, const Body& body, std::size_t grain = kGrain) const {
+    for_blocks(count, grain, [&body](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) body(i);
     });
   }
@@ -38,7 +41,7 @@ class Parallel {
  private:
   using Block = std::function<void(std::size_t, std::size_t)>;
   using BlockValue = std::function<double(std::size_t, std::size_t)>;
-  void for_blocks(std::size_t count, const Block& block) const;
+  void for_blocks(std::size_t count, std::size_t grain, const Block& block) const;
   [[nodiscard]] double max_of_blocks(std::size_t count, const BlockValue& block) const;
 
   struct Arena;

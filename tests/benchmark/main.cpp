@@ -5,6 +5,8 @@
 
 #include "benchmark/accuracy.hpp"
 #include "benchmark/formulations.hpp"
+#include "benchmark/speed.hpp"
+#include "benchmark/speed_scenes.hpp"
 #include "benchmark/stability.hpp"
 #include "protocol/error.hpp"
 #include "validation/support/case.hpp"
@@ -70,6 +72,24 @@ CLI::App* add_stability(CLI::App& app, StabilityOptions& options) {
   return command;
 }
 
+CLI::App* add_speed(CLI::App& app, SpeedOptions& options) {
+  CLI::App* command = app.add_subcommand("speed", "Particle steps a second, and what share of the processor");
+  command->add_option("--case", options.cases, "Of: " + names(all_speed_scenes()))->type_name("NAME ...");
+  command->add_option("--particles", options.particles, "These numbers instead of the cases' own")
+      ->check(CLI::Range(100.0, 1e8))
+      ->type_name("N ...");
+  command->add_option("--threads", options.threads, "Numbers of threads")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N ...")
+      ->capture_default_str();
+  command->add_flag("--quick", options.quick, "The smallest of each case, for seconds");
+  command->add_option("--csv", options.csv, "Write the table to this file")->type_name("FILE");
+  command->add_option("--baseline", options.baseline, "Compare with an earlier table")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE");
+  return command;
+}
+
 int bench(int argc, char** argv) {
   CLI::App app{"What the solver's results are worth and what they cost."};
   app.name("sluice bench");
@@ -79,13 +99,16 @@ int bench(int argc, char** argv) {
   AccuracyOptions of_accuracy;
   const CLI::App* measures_accuracy = add_accuracy(app, of_accuracy);
   StabilityOptions of_stability;
-  add_stability(app, of_stability);
+  const CLI::App* checks_stability = add_stability(app, of_stability);
+  SpeedOptions of_speed;
+  add_speed(app, of_speed);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? protocol::kDone : protocol::kBadInput;
   }
-  return measures_accuracy->parsed() ? accuracy(of_accuracy) : stability(of_stability);
+  if (measures_accuracy->parsed()) return accuracy(of_accuracy);
+  return checks_stability->parsed() ? stability(of_stability) : speed(of_speed);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "tests/cli/command.hpp"
 
@@ -40,6 +41,26 @@ TEST(Bench, ChecksStability) {
   EXPECT_THAT(read_text(directory.path() / "s.csv"),
               AllOf(HasSubstr("random_scenes,,\"scenes\",\"\",1,,,"), HasSubstr("kernel_sums,")));
   EXPECT_EQ(run_program("sluice", {"check", "seed_56.scene"}, directory.path()).code, 0);
+}
+
+TEST(Bench, MeasuresSpeedAndComparesWithItself) {
+  const TemporaryDirectory directory;
+  const std::vector<std::string> command{"bench",       "speed", "--case",    "dam_break", "dam_break_3d",
+                                         "--particles", "2000",  "--threads", "1",         "--quick"};
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), command.begin(), command.end());
+    return run_program("sluice", more, directory.path());
+  };
+  const Outcome first = run({"--csv", "a.csv"});
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_THAT(first.out, AllOf(HasSubstr("peak of one core"), HasSubstr("dam_break_3d: ")));
+  const std::string csv = read_text(directory.path() / "a.csv");
+  EXPECT_THAT(csv, AllOf(HasSubstr("scene,particles,threads,rate"), HasSubstr("\ndam_break_3d,2197,1,")));
+  EXPECT_THAT(run({"--baseline", "a.csv"}).out, HasSubstr("times baseline"));
+  std::ofstream(directory.path() / "b.csv") << csv << "dam_break,many,1\n";
+  const Outcome broken = run({"--baseline", "b.csv"});
+  EXPECT_EQ(broken.code, 1);
+  EXPECT_THAT(broken.err, HasSubstr("b.csv:4: cannot be read"));
 }
 
 TEST(Bench, RefusesChecksThatDoNotExist) {

@@ -1,0 +1,236 @@
+#include "fluid/lanes.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fluid/force_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "fluid/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace sluice::fluid::HWY_NAMESPACE {
+
+// The penetration guard, guard_force of force_sweep.hpp: added to `force`.
+template <int Dim>
+HWY_INLINE void add_guard(const LaneModel<Dim>& model, M on, V r2, const Vecs<Dim>& x, Vecs<Dim>& force) {
+  const M near = hn::And(on, hn::Lt(r2, set(model.guard_range * model.guard_range)));
+  if (HWY_LIKELY(hn::AllFalse(D(), near))) return;
+  const V r = hn::Sqrt(r2 + set(model.tiny_r2));
+  const V spring = set(model.guard_stiffness) * (set(model.guard_range) / r - set(1.0));
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a) force[a] = hn::MulAdd(hn::IfThenElseZero(near, spring), x[a], force[a]);
+}
+
+template <int Dim>
+struct ForceSums {
+  Vecs<Dim> internal, viscous, traction, guard;
+  V diffusion;
+
+  HWY_INLINE void clear() {
+    internal = viscous = traction = guard = zeros<Dim>();
+    diffusion = hn::Zero(D());
+  }
+};
+
+template <int Dim, bool kMasked>
+HWY_INLINE void gather_fluid(const LaneModel<Dim>& model, const NodeLanes<Dim>& group,
+                             const ForceLanes<Dim>& lanes, std::size_t turn, const NearGroup& near,
+                             const Node<Dim>* node, const Source<Dim>* source, ForceSums<Dim>& sums) {
+  const Wendland kernel(model.kernel);
+  const Vecs<Dim> x = load(group.x, turn), v = load(group.v, turn), grad_rho = load(lanes.grad_rho, turn);
+  const Vecs<Dim*(Dim + 1) / 2> strain = load(lanes.strain, turn);
+  const V rho = load(group.rho, turn), tiny_r2 = set(model.tiny_r2), half = set(0.5);
+  ForceSums<Dim> s = sums;
+  for (std::size_t n = 0; n < near.index.size(); ++n) {
+    const Node<Dim>& k = node[near.index[n]];
+    const Source<Dim>& from = source[near.index[n]];
+    Vecs<Dim> x_ik;
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) x_ik[a] = x[a] - set(k.x[a]);
+    const V r2 = dot(x_ik, x_ik);
+    V W, F;
+    kernel.value_and_slope(r2, W, F);
+    if constexpr (kMasked) {
+      const M on = lanes_of(near.lanes, n, turn);
+      W = hn::IfThenElseZero(on, W);
+      F = hn::IfThenElseZero(on, F);
+    }
+    Vecs<Dim> flux, strained = zeros<Dim>();
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) flux[a] = set(from.s[a]);
+    SLUICE_UNROLL
+    for (int ab = 0; ab < Dim * Dim; ++ab) {
+      const int a = ab / Dim, b = ab % Dim;
+      flux[a] = hn::MulAdd(set(from.S(a, b)), x_ik[b], flux[a]);
+      strained[a] = hn::MulAdd(strain[sym<Dim>(a, b)] + set(from.strain(a, b)), x_ik[b], strained[a]);
+    }
+    V approach = hn::Zero(D()), explained = hn::Zero(D()), slope = hn::Zero(D());
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) {
+      s.internal[a] = hn::MulAdd(W, flux[a], s.internal[a]);
+      approach = hn::MulAdd(v[a] - set(k.v[a]), x_ik[a], approach);
+      explained = hn::MulAdd(strained[a], x_ik[a], explained);
+      slope = hn::MulAdd(grad_rho[a] + set(from.grad_rho[a]), x_ik[a], slope);
+    }
+    const V VF = set(k.volume) * F;
+    const V viscous = VF * hn::NegMulAdd(half, explained, approach) / (r2 + tiny_r2);
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) s.viscous[a] = hn::NegMulAdd(viscous, x_ik[a], s.viscous[a]);
+    s.diffusion = hn::MulAdd(VF, hn::MulAdd(half, slope, set(k.rho) - rho), s.diffusion);
+  }
+  sums = s;
+}
+
+template <int Dim>
+HWY_INLINE void gather_boundary(const LaneModel<Dim>& model, const NodeLanes<Dim>& group, std::size_t turn,
+                                const NearGroup& near, const BoundaryParticles<Dim>& walls,
+                                ForceSums<Dim>& sums) {
+  const Wendland kernel(model.kernel);
+  const Vecs<Dim> x = load(group.x, turn);
+  const bool is_viscous = !walls.stress.empty();
+  M on = hn::Eq(hn::Zero(D()), hn::Zero(D()));
+  for (std::size_t n = 0; n < near.index.size(); ++n) {
+    const std::uint32_t w = near.index[n];
+    if (near.lanes != nullptr) on = lanes_of(near.lanes, n, turn);
+    Vecs<Dim> x_iw;
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) x_iw[a] = x[a] - set(walls.node()[w].x[a]);
+    const V r2 = dot(x_iw, x_iw);
+    const V W = hn::IfThenElseZero(on, set(walls.sampled_volume(w)) * kernel.value(r2));
+    const V Wp = W * set(walls.pressure[w]);
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) sums.traction[a] = hn::MulAdd(Wp, x_iw[a], sums.traction[a]);
+    if (is_viscous) SLUICE_UNROLL
+    for (int ab = 0; ab < Dim * Dim; ++ab) {
+      V& traction = sums.traction[ab / Dim];
+      traction = hn::NegMulAdd(W * set(walls.stress[w](ab / Dim, ab % Dim)), x_iw[ab % Dim], traction);
+    }
+    add_guard<Dim>(model, on, r2, x_iw, sums.guard);
+  }
+}
+
+template <int Dim>
+HWY_INLINE void forces(const LaneModel<Dim>& model, const NodeLanes<Dim>& group, const NearGroup& fluid,
+                       const Particles<Dim>& particles, const NearGroup& boundary,
+                       const BoundaryParticles<Dim>& walls, ForceLanes<Dim>& lanes) {
+  const Node<Dim>* node = particles.node.data();
+  const Source<Dim>* source = particles.source.data();
+  for (std::size_t turn = 0; turn < kGroup; turn += kLanes) {
+    ForceSums<Dim> sums;
+    sums.clear();
+    if (fluid.lanes == nullptr)
+      gather_fluid<Dim, false>(model, group, lanes, turn, fluid, node, source, sums);
+    else
+      gather_fluid<Dim, true>(model, group, lanes, turn, fluid, node, source, sums);
+    gather_boundary<Dim>(model, group, turn, boundary, walls, sums);
+    const V volume = load(group.volume, turn), W0 = set(model.kernel.at_zero());
+    const V alpha = set(model.artificial_viscosity * model.kernel.slope());
+    Vecs<Dim> force;
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) {
+      const V stress = hn::MulSub(set(model.boundary_G), sums.traction[a], sums.internal[a]);
+      force[a] = hn::MulAdd(volume, hn::MulAdd(W0, stress, alpha * sums.viscous[a]), sums.guard[a]);
+    }
+    store(force, lanes.force, turn);
+    store(set(model.density_diffusion * model.kernel.slope()) * sums.diffusion, lanes.density_rate, turn);
+  }
+}
+
+// Fluid particle i distributes its stress to w like to any neighbour, and takes w's traction with the
+// opposite sign.
+template <int Dim>
+HWY_INLINE void reactions(const LaneModel<Dim>& model, const NodeLanes<Dim>& group, const NearGroup& near,
+                          const Particles<Dim>& particles, ReactionLanes<Dim>& lanes) {
+  const Wendland kernel(model.kernel);
+  for (std::size_t turn = 0; turn < kGroup; turn += kLanes) {
+    const Vecs<Dim> x = load(group.x, turn);
+    const V volume = load(group.volume, turn), traction = load(lanes.pressure_volume, turn);
+    M on = hn::Eq(hn::Zero(D()), hn::Zero(D()));
+    Vecs<Dim> internal = zeros<Dim>(), back = zeros<Dim>(), guard = zeros<Dim>();
+    for (std::size_t n = 0; n < near.index.size(); ++n) {
+      const Node<Dim>& i = particles.node[near.index[n]];
+      const Source<Dim>& from = particles.source[near.index[n]];
+      if (near.lanes != nullptr) on = lanes_of(near.lanes, n, turn);
+      Vecs<Dim> x_wi;
+      SLUICE_UNROLL
+      for (int a = 0; a < Dim; ++a) x_wi[a] = x[a] - set(i.x[a]);
+      const V r2 = dot(x_wi, x_wi);
+      const V W = hn::IfThenElseZero(on, kernel.value(r2));
+      const V WV = W * set(i.volume);
+      Vecs<Dim> flux;
+      SLUICE_UNROLL
+      for (int a = 0; a < Dim; ++a) flux[a] = set(from.s[a]);
+      SLUICE_UNROLL
+      for (int ab = 0; ab < Dim * Dim; ++ab)
+        flux[ab / Dim] = hn::MulAdd(set(from.S(ab / Dim, ab % Dim)), x_wi[ab % Dim], flux[ab / Dim]);
+      SLUICE_UNROLL
+      for (int a = 0; a < Dim; ++a) {
+        internal[a] = hn::MulAdd(W, flux[a], internal[a]);
+        back[a] = hn::MulAdd(WV, x_wi[a], back[a]);
+      }
+      add_guard<Dim>(model, on, r2, x_wi, guard);
+    }
+    const V W0 = set(model.kernel.at_zero()), G = set(model.boundary_G);
+    Vecs<Dim> force;
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a)
+      force[a] = hn::MulAdd(W0, G * traction * back[a] - volume * internal[a], guard[a]);
+    store(force, lanes.force, turn);
+  }
+}
+
+void forces_2d(const LaneModel<2>& model, const NodeLanes<2>& group, const NearGroup& fluid,
+               const Particles<2>& particles, const NearGroup& boundary, const BoundaryParticles<2>& walls,
+               ForceLanes<2>& lanes) {
+  forces<2>(model, group, fluid, particles, boundary, walls, lanes);
+}
+void forces_3d(const LaneModel<3>& model, const NodeLanes<3>& group, const NearGroup& fluid,
+               const Particles<3>& particles, const NearGroup& boundary, const BoundaryParticles<3>& walls,
+               ForceLanes<3>& lanes) {
+  forces<3>(model, group, fluid, particles, boundary, walls, lanes);
+}
+void reactions_2d(const LaneModel<2>& model, const NodeLanes<2>& group, const NearGroup& fluid,
+                  const Particles<2>& particles, ReactionLanes<2>& lanes) {
+  reactions<2>(model, group, fluid, particles, lanes);
+}
+void reactions_3d(const LaneModel<3>& model, const NodeLanes<3>& group, const NearGroup& fluid,
+                  const Particles<3>& particles, ReactionLanes<3>& lanes) {
+  reactions<3>(model, group, fluid, particles, lanes);
+}
+
+}  // namespace sluice::fluid::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sluice::fluid {
+
+HWY_EXPORT(forces_2d);
+HWY_EXPORT(forces_3d);
+HWY_EXPORT(reactions_2d);
+HWY_EXPORT(reactions_3d);
+
+template <>
+void gather_forces(const LaneModel<2>& model, const NodeLanes<2>& group, const NearGroup& fluid,
+                   const Particles<2>& particles, const NearGroup& boundary,
+                   const BoundaryParticles<2>& walls, ForceLanes<2>& lanes) {
+  HWY_DYNAMIC_DISPATCH(forces_2d)(model, group, fluid, particles, boundary, walls, lanes);
+}
+template <>
+void gather_forces(const LaneModel<3>& model, const NodeLanes<3>& group, const NearGroup& fluid,
+                   const Particles<3>& particles, const NearGroup& boundary,
+                   const BoundaryParticles<3>& walls, ForceLanes<3>& lanes) {
+  HWY_DYNAMIC_DISPATCH(forces_3d)(model, group, fluid, particles, boundary, walls, lanes);
+}
+template <>
+void gather_reaction(const LaneModel<2>& model, const NodeLanes<2>& group, const NearGroup& fluid,
+                     const Particles<2>& particles, ReactionLanes<2>& lanes) {
+  HWY_DYNAMIC_DISPATCH(reactions_2d)(model, group, fluid, particles, lanes);
+}
+template <>
+void gather_reaction(const LaneModel<3>& model, const NodeLanes<3>& group, const NearGroup& fluid,
+                     const Particles<3>& particles, ReactionLanes<3>& lanes) {
+  HWY_DYNAMIC_DISPATCH(reactions_3d)(model, group, fluid, particles, lanes);
+}
+
+}  // namespace sluice::fluid
+#endif

@@ -1,0 +1,120 @@
+#pragma once
+
+// The stages of GalerkinSolver that are about the boundary particles.
+
+#include "fluid/boundary_sweep.hpp"
+#include "fluid/boundary_velocity.hpp"
+#include "fluid/damped_viscosity.hpp"
+#include "fluid/galerkin_solver.hpp"
+#include "fluid/symmetrized_force.hpp"
+
+namespace sluice::fluid {
+
+// Calls visit(w) for the boundary particles that have fluid near, or whose group has, in rising order.
+template <int Dim, typename Kernel>
+template <typename Visit>
+void GalerkinSolver<Dim, Kernel>::for_active_boundary(const Visit& visit) const {
+  if (!by_groups_) {
+    for (const std::uint32_t w : search_.active_boundary()) visit(w);
+    return;
+  }
+  for (const std::uint32_t group : search_.groups().active_boundary())
+    for (std::size_t w = group * kGroup; w < std::min((group + 1) * kGroup, boundary_.size()); ++w) visit(w);
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::mirror_velocities() {
+  if constexpr (kHasGroups)
+    if (by_groups_) return group_stages().mirror_velocities(fluid_, boundary_);
+  const auto& active = search_.active_boundary();
+  parallel_.for_each(active.size(), [&](std::size_t a) {
+    mirror_velocity<Dim>(model_, fluid_, search_.fluid_near_active(a), active[a], boundary_);
+  });
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::extrapolate_to_boundary() {
+  if constexpr (kHasGroups)
+    if (by_groups_ && boundary_.stress.empty()) return group_stages().extrapolate(fluid_, boundary_);
+  const auto& active = search_.active_boundary();
+  parallel_.for_each(active.size(), [&](std::size_t a) {
+    extrapolate<Dim>(model_, fluid_, search_.fluid_near_active(a), active[a], boundary_);
+  });
+}
+
+// The fluid's force on every measured boundary particle.
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::compute_reactions() {
+  reaction_.assign(boundary_.size(), {});
+  if constexpr (kHasGroups)
+    if (by_groups_ && boundary_.stress.empty())
+      return group_stages().react(fluid_, boundary_, measured_groups(), reaction_);
+  const auto& active = search_.active_boundary();
+  parallel_.for_each(active.size(), [&](std::size_t a) {
+    const std::size_t w = active[a];
+    if (!is_measured(w)) return;
+    const auto near = search_.fluid_near_active(a);
+    reaction_[w] = reaction<Dim>(model_, fluid_, near, w, boundary_);
+    if constexpr (Operator<Dim, Kernel>::kIsDefault)
+      if (is_symmetrized_) add_symmetrized_reaction<Dim>(model_, fluid_, near, w, boundary_, reaction_[w]);
+    if constexpr (HasLaplacian<Kernel, Dim>)
+      if (is_damped_) add_damped_reaction<Dim>(model_, fluid_, near, boundary_.node()[w], reaction_[w]);
+  });
+}
+
+template <int Dim, typename Kernel>
+std::vector<std::uint32_t> GalerkinSolver<Dim, Kernel>::measured_groups() const {
+  std::vector<std::uint32_t> groups;
+  for_active_boundary([&](std::size_t w) {
+    const auto group = static_cast<std::uint32_t>(w / kGroup);
+    if ((groups.empty() || groups.back() != group) && is_measured(w)) groups.push_back(group);
+  });
+  return groups;
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::collect_wrenches() {
+  wrench_.assign(wrench_.size(), Wrench{});
+  if (bodies_.empty() && !measure_wall_force_) return;
+  compute_reactions();
+  for_active_boundary([&](std::size_t w) {
+    if (!is_measured(w)) return;
+    const auto body = static_cast<std::size_t>(boundary_.body(w));
+    const Eigen::Vector3d center = body == 0 ? Eigen::Vector3d::Zero() : bodies_[body - 1].position;
+    const Eigen::Vector3d arm = widen<Dim>(boundary_.node()[w].x) - center;
+    const Eigen::Vector3d force = widen<Dim>(reaction_[w].force);
+    wrench_[body].force += force;
+    wrench_[body].moment += arm.cross(force) + reaction_[w].couple;
+  });
+}
+
+// Boundary particles of bodies always, of the walls on request, and those only once: not beyond a periodic
+// side.
+template <int Dim, typename Kernel>
+bool GalerkinSolver<Dim, Kernel>::is_measured(std::size_t w) const {
+  if (boundary_.body(w) > 0) return true;
+  if (!measure_wall_force_) return false;
+  const Vec<Dim>& x = boundary_.node()[w].x;
+  for (int a = 0; a < Dim; ++a)
+    if (period_.length[a] > 0.0 && (x[a] < period_.lower[a] || x[a] >= period_.lower[a] + period_.length[a]))
+      return false;
+  return true;
+}
+
+// Power of the bodies on the fluid [W], from the wrenches at an end of the step and the velocities over it:
+// the body moves by dt v under the mean of the two, which is what its own kinetic energy sees.
+template <int Dim, typename Kernel>
+double GalerkinSolver<Dim, Kernel>::boundary_power(const std::vector<Wrench>& wrench) const {
+  double power = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    power -=
+        wrench[b + 1].force.dot(bodies_[b].velocity) + wrench[b + 1].moment.dot(bodies_[b].angular_velocity);
+  return power;
+}
+
+template <int Dim, typename Kernel>
+std::span<const Wrench> GalerkinSolver<Dim, Kernel>::wrenches() const {
+  return std::span<const Wrench>(wrench_).subspan(1);
+}
+
+}  // namespace sluice::fluid

@@ -1,0 +1,219 @@
+#include "fluid/lanes.hpp"
+#include "fluid/moments.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fluid/gradient_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "fluid/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace sluice::fluid::HWY_NAMESPACE {
+
+template <int Dim>
+struct GradientSums {
+  V m0, p;
+  Vecs<Dim> m1, P, q;
+  Vecs<Dim*(Dim + 1) / 2> m2;
+  Vecs<Dim * Dim> Q;
+
+  HWY_INLINE void clear() {
+    m0 = p = hn::Zero(D());
+    m1 = P = q = zeros<Dim>();
+    m2 = zeros<Dim*(Dim + 1) / 2>();
+    Q = zeros<Dim * Dim>();
+  }
+};
+
+template <int Dim, bool kMasked>
+HWY_INLINE void gather(const Wendland& kernel, const NodeLanes<Dim>& group, std::size_t turn,
+                       const NearNodes<Dim>& near, GradientSums<Dim>& sums) {
+  const Vecs<Dim> x = load(group.x, turn), v = load(group.v, turn);
+  const V rho = load(group.rho, turn);
+  GradientSums<Dim> s = sums;
+  for (std::size_t k = 0; k < near.near.index.size(); ++k) {
+    const Node<Dim>& j = near.node[near.near.index[k]];
+    Vecs<Dim> x_ji;
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) x_ji[a] = set(j.x[a]) - x[a];
+    V VW = set(j.volume) * kernel.value(dot(x_ji, x_ji));
+    if constexpr (kMasked) VW = hn::IfThenElseZero(lanes_of(near.near.lanes, k, turn), VW);
+    s.m0 = s.m0 + VW;
+    const V rho_ji = set(j.rho) - rho;
+    s.p = hn::MulAdd(VW, rho_ji, s.p);
+    Vecs<Dim> VWx, v_ji;
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) {
+      VWx[a] = VW * x_ji[a];
+      v_ji[a] = set(j.v[a]) - v[a];
+      s.m1[a] = s.m1[a] + VWx[a];
+      s.P[a] = hn::MulAdd(VW, v_ji[a], s.P[a]);
+      s.q[a] = hn::MulAdd(VWx[a], rho_ji, s.q[a]);
+    }
+    SLUICE_UNROLL
+    for (int ab = 0; ab < Dim * Dim; ++ab) {
+      const int a = ab / Dim, b = ab % Dim;
+      s.Q[ab] = hn::MulAdd(v_ji[a], VWx[b], s.Q[ab]);
+      if (a <= b) s.m2[sym<Dim>(a, b)] = hn::MulAdd(VWx[a], x_ji[b], s.m2[sym<Dim>(a, b)]);
+    }
+  }
+  sums = s;
+}
+
+template <int Dim>
+HWY_INLINE void gather(const Wendland& kernel, const NodeLanes<Dim>& group, std::size_t turn,
+                       const NearNodes<Dim>& near, GradientSums<Dim>& sums) {
+  if (near.near.lanes == nullptr)
+    gather<Dim, false>(kernel, group, turn, near, sums);
+  else
+    gather<Dim, true>(kernel, group, turn, near, sums);
+}
+
+// By the kernel's constant, which the sums still lack.
+template <int Dim>
+HWY_INLINE void scale(V factor, GradientSums<Dim>& s) {
+  s.m0 = s.m0 * factor;
+  s.p = s.p * factor;
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a) {
+    s.m1[a] = s.m1[a] * factor;
+    s.P[a] = s.P[a] * factor;
+    s.q[a] = s.q[a] * factor;
+  }
+  for (V& m : s.m2.a) m = m * factor;
+  for (V& Q : s.Q.a) Q = Q * factor;
+}
+
+// The inverse and whether all eigenvalues are above `floor`, as in moments.hpp.
+template <int Dim>
+HWY_INLINE M invert(const Vecs<Dim*(Dim + 1) / 2>& C, V floor, Vecs<Dim*(Dim + 1) / 2>& G) {
+  const V one = set(1.0), zero = hn::Zero(D());
+  if constexpr (Dim == 2) {
+    const V per_det = one / (C[0] * C[2] - C[1] * C[1]);
+    G[0] = C[2] * per_det;
+    G[1] = hn::Neg(C[1]) * per_det;
+    G[2] = C[0] * per_det;
+    const V b0 = C[0] - floor;
+    return hn::And(hn::Gt(b0, zero), hn::Gt(b0 * (C[2] - floor) - C[1] * C[1], zero));
+  } else {
+    G[0] = C[3] * C[5] - C[4] * C[4];
+    G[1] = C[2] * C[4] - C[1] * C[5];
+    G[2] = C[1] * C[4] - C[2] * C[3];
+    G[3] = C[0] * C[5] - C[2] * C[2];
+    G[4] = C[1] * C[2] - C[0] * C[4];
+    G[5] = C[0] * C[3] - C[1] * C[1];
+    const V per_det = one / (C[0] * G[0] + C[1] * G[1] + C[2] * G[2]);
+    for (int k = 0; k < 6; ++k) G[k] = G[k] * per_det;
+    const V b0 = C[0] - floor, b1 = C[3] - floor, b2 = C[5] - floor;
+    const V minor = b0 * b1 - C[1] * C[1];
+    const V det =
+        b0 * (b1 * b2 - C[4] * C[4]) + C[1] * (C[2] * C[4] - C[1] * b2) + C[2] * (C[1] * C[4] - C[2] * b1);
+    return hn::And(hn::Gt(b0, zero), hn::And(hn::Gt(minor, zero), hn::Gt(det, zero)));
+  }
+}
+
+// Where an eigenvalue is below the floor: one by one, as that is rare.
+template <int Dim>
+void set_floored(const LaneSym<Dim>& C, double floor, std::size_t lane, GradientLanes<Dim>& out) {
+  Mat<Dim> c;
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a)
+    for (int b = 0; b < Dim; ++b) c(a, b) = C[static_cast<std::size_t>(sym<Dim>(a, b))][lane];
+  bool floored = true;
+  const Mat<Dim> G = floored_inverse<Dim>(c, floor, floored);
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a)
+    for (int b = a; b < Dim; ++b) out.G[static_cast<std::size_t>(sym<Dim>(a, b))][lane] = G(a, b);
+  out.floored[lane] = floored;
+}
+
+template <int Dim>
+HWY_INLINE void finish(const GradientSums<Dim>& s, double moment_floor, std::size_t turn,
+                       GradientLanes<Dim>& out) {
+  const V per_m0 = set(1.0) / s.m0;
+  Vecs<Dim> mean;
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a) mean[a] = s.m1[a] * per_m0;
+  Vecs<Dim*(Dim + 1) / 2> C, G;
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a)
+    for (int b = a; b < Dim; ++b) C[sym<Dim>(a, b)] = hn::NegMulAdd(s.m1[a], mean[b], s.m2[sym<Dim>(a, b)]);
+  const M above = invert<Dim>(C, set(moment_floor), G);
+  store(G, out.G, turn);
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(D(), above, bits);
+  for (std::size_t l = 0; l < kLanes; ++l) out.floored[turn + l] = (bits[0] >> l & 1) == 0;
+  if (!hn::AllTrue(D(), above)) {
+    LaneSym<Dim> c;
+    store(C, c, turn);
+    for (std::size_t l = turn; l < turn + kLanes; ++l)
+      if (out.floored[l]) set_floored<Dim>(c, moment_floor, l, out);
+    G = load(out.G, turn);
+  }
+  Vecs<Dim> g = times<Dim>(G, mean);
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a) g[a] = hn::Neg(g[a]);
+  store(s.m0, out.m0, turn);
+  store(g, out.g, turn);
+  store((set(1.0) - dot(s.m1, g)) * per_m0, out.a, turn);
+  Vecs<Dim> grad_rho = times<Dim>(G, s.q);
+  Vecs<Dim * Dim> L;
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a) {
+    grad_rho[a] = hn::MulAdd(s.p, g[a], grad_rho[a]);
+    Vecs<Dim> row;
+    for (int b = 0; b < Dim; ++b) row[b] = s.Q[a * Dim + b];
+    const Vecs<Dim> QG = times<Dim>(G, row);
+    for (int b = 0; b < Dim; ++b) L[a * Dim + b] = hn::MulAdd(s.P[a], g[b], QG[b]);
+  }
+  store(grad_rho, out.grad_rho, turn);
+  store(L, out.L, turn);
+}
+
+template <int Dim>
+HWY_INLINE void gather_all(const LaneModel<Dim>& model, const NodeLanes<Dim>& group,
+                           const NearNodes<Dim>& fluid, const NearNodes<Dim>& boundary,
+                           GradientLanes<Dim>& out) {
+  const Wendland kernel(model.kernel);
+  for (std::size_t turn = 0; turn < kGroup; turn += kLanes) {
+    GradientSums<Dim> sums;
+    sums.clear();
+    gather<Dim>(kernel, group, turn, fluid, sums);
+    gather<Dim>(kernel, group, turn, boundary, sums);
+    scale<Dim>(set(model.kernel.at_zero()), sums);
+    finish<Dim>(sums, model.moment_floor, turn, out);
+  }
+}
+
+void gradients_2d(const LaneModel<2>& model, const NodeLanes<2>& group, const NearNodes<2>& fluid,
+                  const NearNodes<2>& boundary, GradientLanes<2>& out) {
+  gather_all<2>(model, group, fluid, boundary, out);
+}
+void gradients_3d(const LaneModel<3>& model, const NodeLanes<3>& group, const NearNodes<3>& fluid,
+                  const NearNodes<3>& boundary, GradientLanes<3>& out) {
+  gather_all<3>(model, group, fluid, boundary, out);
+}
+
+}  // namespace sluice::fluid::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sluice::fluid {
+
+HWY_EXPORT(gradients_2d);
+HWY_EXPORT(gradients_3d);
+
+template <>
+void gather_gradients(const LaneModel<2>& model, const NodeLanes<2>& group, const NearNodes<2>& fluid,
+                      const NearNodes<2>& boundary, GradientLanes<2>& out) {
+  HWY_DYNAMIC_DISPATCH(gradients_2d)(model, group, fluid, boundary, out);
+}
+template <>
+void gather_gradients(const LaneModel<3>& model, const NodeLanes<3>& group, const NearNodes<3>& fluid,
+                      const NearNodes<3>& boundary, GradientLanes<3>& out) {
+  HWY_DYNAMIC_DISPATCH(gradients_3d)(model, group, fluid, boundary, out);
+}
+
+}  // namespace sluice::fluid
+#endif

@@ -1,0 +1,117 @@
+#include "fluid/group_search.hpp"
+
+#include "fluid/lanes.hpp"
+
+namespace sluice::fluid {
+
+namespace {
+
+// Positions of a group and the box that holds all points within reach of it.
+template <int Dim>
+struct Surroundings {
+  Surroundings(const std::vector<Node<Dim>>& node, std::size_t count, std::size_t group, double reach) {
+    low = high = node[group * kGroup].x;
+    for (std::size_t l = 0; l < kGroup; ++l) {
+      const Vec<Dim>& p = node[std::min(group * kGroup + l, count - 1)].x;
+      for (std::size_t a = 0; a < Dim; ++a) x[a][l] = p[static_cast<Eigen::Index>(a)];
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    low.array() -= reach;
+    high.array() += reach;
+  }
+
+  LaneVec<Dim> x;
+  Vec<Dim> low, high;
+};
+
+// The lanes of a group for which yes(particle) holds; those behind the last particle do not matter.
+template <typename Yes>
+std::uint8_t lanes_where(std::size_t group, std::size_t count, const Yes& yes) {
+  unsigned bits = 0;
+  for (std::size_t l = 0; l < kGroup && group * kGroup + l < count; ++l)
+    if (yes(group * kGroup + l)) bits |= 1u << l;
+  return static_cast<std::uint8_t>(bits);
+}
+
+}  // namespace
+
+template <int Dim>
+void GroupSearch<Dim>::rebuild(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
+                               const SearchGrids<Dim>& grids, const Visibility<Dim>& visibility, double reach,
+                               double cell, const Parallel& parallel) {
+  const auto fluid_count = static_cast<std::uint32_t>(fluid.size());
+  const auto append_fluid = [&](const Surroundings<Dim>& near, std::vector<std::uint32_t>& index) {
+    const auto append_row = [&](std::uint32_t first, std::uint32_t last) {
+      append_near<Dim>(near.x, reach, fluid.node.data(), first, last, nullptr, index);
+    };
+    grids.fluid.for_rows_in(near.low, near.high, append_row);
+    if (!grids.has_images) return;
+    grids.images.for_rows_in(near.low, near.high, [&](std::uint32_t first, std::uint32_t last) {
+      append_row(fluid_count + first, fluid_count + last);
+    });
+  };
+  const auto near_plate = [&](std::size_t group) {
+    return lanes_where(group, fluid.size(), [&](std::size_t i) { return visibility.is_near_plate(i); }) != 0;
+  };
+
+  fluid_.build(
+      group_count(fluid.size()), parallel,
+      [&](std::size_t group, std::vector<std::uint32_t>& index) {
+        append_fluid(Surroundings<Dim>(fluid.node, fluid.size(), group, reach), index);
+      },
+      near_plate,
+      [&](std::size_t group, std::uint32_t j) {
+        return lanes_where(group, fluid.size(),
+                           [&](std::size_t i) { return i == j || visibility.fluid_sees_fluid(i, j); });
+      });
+
+  CellGrid<Dim> walls(boundary.node(), cell);
+  walls.file(boundary.node());
+  boundary_.build(
+      group_count(fluid.size()), parallel,
+      [&](std::size_t group, std::vector<std::uint32_t>& index) {
+        const Surroundings<Dim> near(fluid.node, fluid.size(), group, reach);
+        walls.for_rows_in(near.low, near.high, [&](std::uint32_t first, std::uint32_t last) {
+          append_near<Dim>(near.x, reach, boundary.node().data(), first, last, walls.item().data(), index);
+        });
+      },
+      near_plate,
+      [&](std::size_t group, std::uint32_t w) {
+        return lanes_where(group, fluid.size(),
+                           [&](std::size_t i) { return visibility.fluid_sees_boundary(i, w); });
+      });
+
+  of_boundary_.build(
+      group_count(boundary.size()), parallel,
+      [&](std::size_t group, std::vector<std::uint32_t>& index) {
+        append_fluid(Surroundings<Dim>(boundary.node(), boundary.size(), group, reach), index);
+      },
+      [&](std::size_t group) {
+        return lanes_where(group, boundary.size(), [&](std::size_t w) { return boundary.plate(w) >= 0; }) !=
+               0;
+      },
+      [&](std::size_t group, std::uint32_t j) {
+        return lanes_where(group, boundary.size(),
+                           [&](std::size_t w) { return visibility.fluid_sees_boundary(j, w); });
+      });
+  active_.clear();
+  for (std::size_t group = 0; group < of_boundary_.size(); ++group)
+    if (!of_boundary_.of(group).index.empty()) active_.push_back(static_cast<std::uint32_t>(group));
+}
+
+template <int Dim>
+std::span<const std::uint32_t> GroupSearch<Dim>::boundary_near_particle(
+    std::size_t i, std::vector<std::uint32_t>& buffer) const {
+  const NearGroup near = boundary_.of(i / kGroup);
+  if (near.lanes == nullptr) return near.index;
+  buffer.clear();
+  for (std::size_t n = 0; n < near.index.size(); ++n)
+    if (near.lanes[n] >> i % kGroup & 1) buffer.push_back(near.index[n]);
+  return buffer;
+}
+
+template class GroupSearch<2>;
+template class GroupSearch<3>;
+
+}  // namespace sluice::fluid

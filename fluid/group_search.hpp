@@ -1,0 +1,61 @@
+#pragma once
+
+#include <vector>
+
+#include "fluid/boundary.hpp"
+#include "fluid/cell_grid.hpp"
+#include "fluid/group_list.hpp"
+#include "fluid/parallel.hpp"
+#include "fluid/particles.hpp"
+#include "fluid/visibility.hpp"
+
+namespace sluice::fluid {
+
+// The grids of a search: of the fluid, whose particles lie in the order of its items, and of the images
+// behind them, likewise.
+template <int Dim>
+struct SearchGrids {
+  const CellGrid<Dim>& fluid;
+  const CellGrid<Dim>& images;
+  bool has_images;
+};
+
+// Lists of what is near groups of fluid and of boundary particles.
+template <int Dim>
+class GroupSearch {
+ public:
+  // Finds what is within `reach` [m]. `cell` is the edge of the cells that sort the boundary [m].
+  void rebuild(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
+               const SearchGrids<Dim>& grids, const Visibility<Dim>& visibility, double reach, double cell,
+               const Parallel& parallel);
+
+  // Fluid near a group of fluid, its own particles among it.
+  [[nodiscard]] NearGroup fluid_near_fluid(std::size_t group) const { return fluid_.of(group); }
+  [[nodiscard]] NearGroup boundary_near_fluid(std::size_t group) const { return boundary_.of(group); }
+  // Boundary particles near one fluid particle, and few beyond the reach; `buffer` holds them.
+  [[nodiscard]] std::span<const std::uint32_t> boundary_near_particle(
+      std::size_t i, std::vector<std::uint32_t>& buffer) const;
+  // Groups of boundary particles that have fluid near.
+  [[nodiscard]] const std::vector<std::uint32_t>& active_boundary() const { return active_; }
+  [[nodiscard]] NearGroup fluid_near_boundary(std::size_t group) const { return of_boundary_.of(group); }
+
+  // Calls visit(i, w) for all pairs of fluid and of the `count` boundary particles.
+  template <typename Visit>
+  void for_boundary_pairs(std::size_t count, const Visit& visit) const {
+    for (const std::uint32_t group : active_) {
+      const NearGroup near = of_boundary_.of(group);
+      for (std::size_t n = 0; n < near.index.size(); ++n)
+        for (std::size_t l = 0; l < kGroup && group * kGroup + l < count; ++l)
+          if (near.lanes == nullptr || near.lanes[n] >> l & 1) visit(near.index[n], group * kGroup + l);
+    }
+  }
+
+ private:
+  GroupList fluid_, boundary_, of_boundary_;
+  std::vector<std::uint32_t> active_;
+};
+
+extern template class GroupSearch<2>;
+extern template class GroupSearch<3>;
+
+}  // namespace sluice::fluid

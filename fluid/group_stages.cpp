@@ -1,0 +1,154 @@
+#include "fluid/group_stages.hpp"
+
+#include "fluid/boundary_sweep.hpp"
+#include "fluid/boundary_velocity.hpp"
+#include "fluid/stress.hpp"
+
+namespace sluice::fluid {
+
+namespace {
+
+std::size_t group_end(std::size_t group, std::size_t count) {
+  return std::min((group + 1) * kGroup, count);
+}
+
+template <int Dim>
+Vec<Dim> vec_at(const LaneVec<Dim>& lanes, std::size_t l) {
+  Vec<Dim> v;
+  for (int a = 0; a < Dim; ++a) v[a] = lanes[static_cast<std::size_t>(a)][l];
+  return v;
+}
+template <int Dim>
+Mat<Dim> mat_at(const LaneMat<Dim>& lanes, std::size_t l) {
+  Mat<Dim> m;
+  for (int a = 0; a < Dim; ++a)
+    for (int b = 0; b < Dim; ++b) m(a, b) = lanes[static_cast<std::size_t>(a * Dim + b)][l];
+  return m;
+}
+template <int Dim>
+Mat<Dim> sym_at(const LaneSym<Dim>& lanes, std::size_t l) {
+  Mat<Dim> m;
+  std::size_t k = 0;
+  for (int a = 0; a < Dim; ++a)
+    for (int b = a; b < Dim; ++b) m(a, b) = m(b, a) = lanes[k++][l];
+  return m;
+}
+template <int Dim>
+void put(const Vec<Dim>& v, std::size_t l, LaneVec<Dim>& lanes) {
+  for (int a = 0; a < Dim; ++a) lanes[static_cast<std::size_t>(a)][l] = v[a];
+}
+
+// Velocities of the bodies; the lanes behind the last particle get any.
+template <int Dim>
+void put_body_velocities(const BoundaryParticles<Dim>& boundary, std::size_t group, LaneVec<Dim>& lanes) {
+  for (std::size_t l = 0; l < kGroup; ++l)
+    put<Dim>(boundary.velocity(std::min(group * kGroup + l, boundary.size() - 1)), l, lanes);
+}
+
+}  // namespace
+
+template <int Dim>
+void GroupStages<Dim>::mirror_velocities(const Particles<Dim>& fluid,
+                                         BoundaryParticles<Dim>& boundary) const {
+  for_active_groups([&](std::size_t group) {
+    FlowLanes<Dim> flow;
+    put_body_velocities<Dim>(boundary, group, flow.body_velocity);
+    gather_flow<Dim>(model_, node_lanes(boundary.node(), boundary.size(), group),
+                     {search_.fluid_near_boundary(group), fluid.node.data()}, flow);
+    for (std::size_t w = group * kGroup; w < group_end(group, boundary.size()); ++w) {
+      const std::size_t l = w % kGroup;
+      const Moments<Dim> moments{flow.m0[l], vec_at<Dim>(flow.m1, l), sym_at<Dim>(flow.m2, l)};
+      mirror_flow(model_, Extrapolation<Dim, Dim>(moments, vec_at<Dim>(flow.v, l), mat_at<Dim>(flow.vx, l)),
+                  w, boundary);
+    }
+  });
+}
+
+template <int Dim>
+void GroupStages<Dim>::compute_gradients(const BoundaryParticles<Dim>& boundary,
+                                         Particles<Dim>& fluid) const {
+  for_fluid_groups(fluid.size(), [&](std::size_t group) {
+    GradientLanes<Dim> lanes;
+    gather_gradients<Dim>(model_, node_lanes(fluid.node, fluid.size(), group),
+                          {search_.fluid_near_fluid(group), fluid.node.data()},
+                          {search_.boundary_near_fluid(group), boundary.node().data()}, lanes);
+    for (std::size_t i = group * kGroup; i < group_end(group, fluid.size()); ++i) {
+      const std::size_t l = i % kGroup;
+      fluid.fit[i] = {lanes.m0[l], vec_at<Dim>(lanes.g, l), sym_at<Dim>(lanes.G, l), lanes.floored[l],
+                      lanes.a[l]};
+      const Mat<Dim> L = mat_at<Dim>(lanes.L, l);
+      fluid.source[i].grad_rho = vec_at<Dim>(lanes.grad_rho, l);
+      fluid.source[i].strain = strain_rate<Dim>(L);
+      fluid.divergence[i] = L.trace();
+      if (!fluid.L.empty()) fluid.L[i] = L;
+    }
+  });
+}
+
+template <int Dim>
+void GroupStages<Dim>::extrapolate(const Particles<Dim>& fluid, BoundaryParticles<Dim>& boundary) const {
+  for_active_groups([&](std::size_t group) {
+    StateLanes<Dim> lanes;
+    put_body_velocities<Dim>(boundary, group, lanes.body_velocity);
+    for (std::size_t l = 0; l < kGroup; ++l)
+      put<Dim>(pull_across(model_, boundary, std::min(group * kGroup + l, boundary.size() - 1)), l,
+               lanes.pull);
+    gather_state<Dim>(model_, node_lanes(boundary.node(), boundary.size(), group),
+                      search_.fluid_near_boundary(group), fluid, lanes);
+    for (std::size_t w = group * kGroup; w < group_end(group, boundary.size()); ++w) {
+      const std::size_t l = w % kGroup;
+      const Moments<Dim> moments{lanes.m0[l], vec_at<Dim>(lanes.m1, l), sym_at<Dim>(lanes.m2, l)};
+      Eigen::Matrix<double, 2, Dim> slopes;
+      slopes.row(0) = vec_at<Dim>(lanes.px, l);
+      slopes.row(1) = vec_at<Dim>(lanes.rhox, l);
+      const Eigen::Vector2d sums(lanes.p[l], lanes.rho[l]);
+      take_over(model_, {{moments, sums, slopes}, lanes.volume[l], lanes.dynamic[l]}, w, boundary);
+    }
+  });
+}
+
+template <int Dim>
+void GroupStages<Dim>::compute_forces(const BoundaryParticles<Dim>& boundary, Particles<Dim>& fluid) const {
+  for_fluid_groups(fluid.size(), [&](std::size_t group) {
+    ForceLanes<Dim> lanes;
+    for (std::size_t l = 0; l < kGroup; ++l) {
+      const Source<Dim>& source = fluid.source[std::min(group * kGroup + l, fluid.size() - 1)];
+      put<Dim>(source.grad_rho, l, lanes.grad_rho);
+      std::size_t k = 0;
+      for (int a = 0; a < Dim; ++a)
+        for (int b = a; b < Dim; ++b) lanes.strain[k++][l] = source.strain(a, b);
+    }
+    gather_forces<Dim>(model_, node_lanes(fluid.node, fluid.size(), group), search_.fluid_near_fluid(group),
+                       fluid, search_.boundary_near_fluid(group), boundary, lanes);
+    for (std::size_t i = group * kGroup; i < group_end(group, fluid.size()); ++i) {
+      fluid.acceleration[i] = model_.gravity + vec_at<Dim>(lanes.force, i % kGroup) / fluid.mass[i];
+      fluid.density_rate[i] = lanes.density_rate[i % kGroup];
+    }
+  });
+}
+
+template <int Dim>
+void GroupStages<Dim>::react(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
+                             const std::vector<std::uint32_t>& groups,
+                             std::vector<Reaction<Dim>>& reaction) const {
+  parallel_.for_each(
+      groups.size(),
+      [&](std::size_t a) {
+        const std::size_t group = groups[a];
+        ReactionLanes<Dim> lanes;
+        for (std::size_t l = 0; l < kGroup; ++l) {
+          const std::size_t w = std::min(group * kGroup + l, boundary.size() - 1);
+          lanes.pressure_volume[l] = boundary.pressure[w] * boundary.sampled_volume(w);
+        }
+        gather_reaction<Dim>(model_, node_lanes(boundary.node(), boundary.size(), group),
+                             search_.fluid_near_boundary(group), fluid, lanes);
+        for (std::size_t w = group * kGroup; w < group_end(group, boundary.size()); ++w)
+          reaction[w].force = vec_at<Dim>(lanes.force, w % kGroup);
+      },
+      GroupList::kBlock);
+}
+
+template class GroupStages<2>;
+template class GroupStages<3>;
+
+}  // namespace sluice::fluid

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "fluid/boundary.hpp"
+#include "fluid/force_sweep.hpp"
+#include "fluid/group_search.hpp"
+#include "fluid/lanes.hpp"
+#include "fluid/parallel.hpp"
+
+namespace sluice::fluid {
+
+// The stages of a step that walk neighbours, on groups of particles: the default operator with Wendland's
+// kernel, which is worth a vectorised version. Of the other stages and formulations see galerkin_stages.hpp.
+template <int Dim>
+class GroupStages {
+ public:
+  GroupStages(const LaneModel<Dim>& model, const GroupSearch<Dim>& search, const Parallel& parallel)
+      : model_(model), search_(search), parallel_(parallel) {}
+
+  // boundary_velocity.hpp
+  void mirror_velocities(const Particles<Dim>& fluid, BoundaryParticles<Dim>& boundary) const;
+  // gradient_sweep.hpp
+  void compute_gradients(const BoundaryParticles<Dim>& boundary, Particles<Dim>& fluid) const;
+  // boundary_sweep.hpp, without viscous stress
+  void extrapolate(const Particles<Dim>& fluid, BoundaryParticles<Dim>& boundary) const;
+  // force_sweep.hpp: acceleration and density rate
+  void compute_forces(const BoundaryParticles<Dim>& boundary, Particles<Dim>& fluid) const;
+  // The force on the boundary particles of `groups`, by particle; without viscous stress.
+  void react(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
+             const std::vector<std::uint32_t>& groups, std::vector<Reaction<Dim>>& reaction) const;
+
+ private:
+  template <typename Body>
+  void for_fluid_groups(std::size_t particles, const Body& body) const {
+    parallel_.for_each(group_count(particles), body, GroupList::kBlock);
+  }
+  template <typename Body>
+  void for_active_groups(const Body& body) const {
+    const auto& active = search_.active_boundary();
+    parallel_.for_each(
+        active.size(), [&](std::size_t a) { body(active[a]); }, GroupList::kBlock);
+  }
+
+  const LaneModel<Dim>& model_;
+  const GroupSearch<Dim>& search_;
+  const Parallel& parallel_;
+};
+
+extern template class GroupStages<2>;
+extern template class GroupStages<3>;
+
+}  // namespace sluice::fluid

@@ -1,0 +1,124 @@
+// Vectors of the instruction set in hand. Included anew for each one by the *_lanes.cpp.
+
+#if defined(SLUICE_FLUID_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SLUICE_FLUID_LANES_INL
+#undef SLUICE_FLUID_LANES_INL
+#else
+#define SLUICE_FLUID_LANES_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "fluid/lanes.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace sluice::fluid::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<double, kGroup>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+// Particles that a vector holds; a group is done in kGroup/kLanes turns.
+inline constexpr std::size_t kLanes = hn::MaxLanes(D());
+
+HWY_INLINE V set(double x) {
+  return hn::Set(D(), x);
+}
+HWY_INLINE V load(const Lanes& lanes, std::size_t turn) {
+  return hn::Load(D(), lanes.of.data() + turn);
+}
+HWY_INLINE void store(V x, Lanes& lanes, std::size_t turn) {
+  hn::Store(x, D(), lanes.of.data() + turn);
+}
+
+template <int N>
+struct Vecs {
+  V a[N];
+  HWY_INLINE V& operator[](int k) { return a[k]; }
+  HWY_INLINE const V& operator[](int k) const { return a[k]; }
+};
+
+template <int N>
+HWY_INLINE Vecs<N> zeros() {
+  Vecs<N> z;
+  for (int k = 0; k < N; ++k) z[k] = hn::Zero(D());
+  return z;
+}
+template <std::size_t N>
+HWY_INLINE Vecs<static_cast<int>(N)> load(const std::array<Lanes, N>& lanes, std::size_t turn) {
+  Vecs<static_cast<int>(N)> v;
+  for (std::size_t k = 0; k < N; ++k) v[static_cast<int>(k)] = load(lanes[k], turn);
+  return v;
+}
+template <std::size_t N>
+HWY_INLINE void store(const Vecs<static_cast<int>(N)>& v, std::array<Lanes, N>& lanes, std::size_t turn) {
+  for (std::size_t k = 0; k < N; ++k) store(v[static_cast<int>(k)], lanes[k], turn);
+}
+
+template <int N>
+HWY_INLINE V dot(const Vecs<N>& a, const Vecs<N>& b) {
+  V sum = a[0] * b[0];
+  for (int k = 1; k < N; ++k) sum = hn::MulAdd(a[k], b[k], sum);
+  return sum;
+}
+
+// Loops over the components of vectors and matrices are unrolled whole, else they stay in memory.
+#define SLUICE_UNROLL HWY_UNROLL(9)
+
+// Entry of a symmetric matrix held by rows.
+template <int Dim>
+constexpr int sym(int a, int b) {
+  const int row = a < b ? a : b, column = a < b ? b : a;
+  return row * Dim - row * (row - 1) / 2 + column - row;
+}
+
+// m x, m symmetric.
+template <int Dim>
+HWY_INLINE Vecs<Dim> times(const Vecs<Dim*(Dim + 1) / 2>& m, const Vecs<Dim>& x) {
+  Vecs<Dim> y;
+  for (int a = 0; a < Dim; ++a) {
+    y[a] = m[sym<Dim>(a, 0)] * x[0];
+    for (int b = 1; b < Dim; ++b) y[a] = hn::MulAdd(m[sym<Dim>(a, b)], x[b], y[a]);
+  }
+  return y;
+}
+
+// Which lanes an item of a list acts on.
+HWY_INLINE M lanes_of(const std::uint8_t* lanes, std::size_t item, std::size_t turn) {
+  std::uint8_t bits[8] = {static_cast<std::uint8_t>(lanes[item] >> turn)};
+  return hn::LoadMaskBits(D(), bits);
+}
+
+// WendlandC2 of kernel.hpp but for its constants, by which the sums are multiplied at their end: with u = 1 -
+// q/2
+//   W/A = u^4 (5 - 4 u),   F h^2/(5 A) = u^3.
+struct Wendland {
+  template <int Dim>
+  HWY_INLINE explicit Wendland(const WendlandC2<Dim>& kernel)
+      : half_inverse_h(set(kernel.half_inverse_h())), one(set(1.0)), five(set(5.0)), four(set(4.0)) {}
+
+  HWY_INLINE V value(V r2) const {
+    const V u = from_edge(r2), u2 = u * u;
+    return u2 * u2 * hn::NegMulAdd(four, u, five);
+  }
+
+  HWY_INLINE void value_and_slope(V r2, V& w, V& f) const {
+    const V u = from_edge(r2);
+    f = u * u * u;
+    w = f * u * hn::NegMulAdd(four, u, five);
+  }
+
+  V half_inverse_h, one, five, four;
+
+ private:
+  HWY_INLINE V from_edge(V r2) const {
+    return hn::Max(hn::Zero(D()), hn::NegMulAdd(hn::Sqrt(r2), half_inverse_h, one));
+  }
+};
+
+}  // namespace sluice::fluid::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

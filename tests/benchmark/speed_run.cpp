@@ -1,0 +1,77 @@
+#include "benchmark/speed_run.hpp"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+
+#include "fluid/cell_grid.hpp"
+#include "validation/support/scene_run.hpp"
+
+namespace sluice::benchmark {
+
+namespace {
+
+// Memory of the process [bytes].
+double resident() {
+  std::ifstream statm("/proc/self/statm");
+  double pages = 0, resident_pages = 0;
+  statm >> pages >> resident_pages;
+  return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+// Floating-point operations a pair in both sweeps, a multiply-add counting as two, roots and divisions as
+// one: counted in gradient_lanes.cpp and force_lanes.cpp.
+double operations_per_pair(int dimension) {
+  return dimension == 2 ? 48 + 75 : 79 + 124;
+}
+
+template <int Dim>
+double mean_neighbors(const fluid::Snapshot& state, double support) {
+  const std::size_t count = state.density.size();
+  std::vector<fluid::Node<Dim>> nodes(count);
+  for (std::size_t i = 0; i < count; ++i)
+    nodes[i].x = fluid::narrow<Dim>(Eigen::Map<const Eigen::Vector3d>(&state.position[3 * i]));
+  fluid::CellGrid<Dim> cells(nodes, support);
+  cells.file(nodes);
+  double pairs = 0;
+  for (const fluid::Node<Dim>& node : nodes) {
+    const fluid::Vec<Dim> low = node.x.array() - support, high = node.x.array() + support;
+    cells.for_rows_in(low, high, [&](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t k = first; k < last; ++k)
+        if ((nodes[cells.item()[k]].x - node.x).squaredNorm() < support * support) ++pairs;
+    });
+  }
+  return pairs / static_cast<double>(count) - 1.0;
+}
+
+// Steps until that many particle steps are done; the seconds that took.
+double advance(validation::SceneRun& run, double particle_steps, double particles) {
+  const auto steps = static_cast<std::uint64_t>(std::ceil(particle_steps / particles));
+  const auto start = std::chrono::steady_clock::now();
+  for (std::uint64_t k = 0; k < steps; ++k) run.next_step();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
+         static_cast<double>(steps);
+}
+
+}  // namespace
+
+SpeedRow run_for_speed(const SpeedScene& scene, double particles, int threads, const SpeedEffort& effort,
+                       double peak) {
+  const double before = resident();
+  validation::SceneRun run(scene.make(particles), threads);
+  const auto count = static_cast<double>(run.masses().size());
+  advance(run, effort.warm_up, count);
+  const double seconds = advance(run, effort.timed, count);
+  SpeedRow row{.scene = scene.name, .particles = run.masses().size(), .threads = threads};
+  row.bytes = (resident() - before) / count;
+  row.rate = count / seconds;
+  const double h = run.scene().formulation().smoothing() * run.scene().spacing();
+  const fluid::Snapshot state = run.solver().snapshot();
+  row.neighbors = scene.dimension == 2 ? mean_neighbors<2>(state, 2 * h) : mean_neighbors<3>(state, 2 * h);
+  row.share = row.rate * row.neighbors * operations_per_pair(scene.dimension) / (peak * threads);
+  return row;
+}
+
+}  // namespace sluice::benchmark
