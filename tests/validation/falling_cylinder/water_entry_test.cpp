@@ -69,7 +69,7 @@ TEST(WaterEntry, TheReferencesTimeAxisIsNotThatOfItsHeader) {
   EXPECT_GT(reference.at(T), free_fall);
 }
 
-// With t sqrt(g/D) the curves belong together. Deviations are those of README.md, "Water entry".
+// With t sqrt(g/D) the curves belong together. tests/README.md has the deviations at 40 across.
 TEST(WaterEntry, DepthFollowsTheBoundaryElements) {
   for (const int density : {500, 1000}) {
     const Curve reference = boundary_elements(density), computed = water_entry(density, 20, 0.5);
