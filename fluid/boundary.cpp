@@ -34,7 +34,7 @@ void BoundaryParticles<Dim>::append(const Boundary& boundary, double rest_densit
   first_.push_back(node_.size());
   no_slip_.push_back(boundary.no_slip);
   assert(boundary.to_surface.size() == boundary.position.size());
-  Plate<Dim> plate{static_cast<std::size_t>(body), {}, Vec<Dim>::Zero(), 0.0};
+  Plate<Dim> plate{static_cast<std::size_t>(body), {}};
   for (std::size_t k = 0; k < boundary.position.size(); ++k) {
     const Vec<Dim> x = narrow<Dim>(boundary.position[k]);
     node_.push_back({x, Vec<Dim>::Zero(), boundary.volume[k], rest_density});
@@ -43,7 +43,6 @@ void BoundaryParticles<Dim>::append(const Boundary& boundary, double rest_densit
     sampled_volume_.push_back(boundary.volume[k]);
     body_.push_back(body);
     face_.push_back(is_plate ? boundary.face[k] : -1);
-    plate.radius = std::max(plate.radius, x.norm());
   }
   if (!is_plate) return;
   for (const Boundary::Face& face : boundary.faces) {
@@ -94,7 +93,6 @@ template <int Dim>
 void BoundaryParticles<Dim>::move_plate(const Kinematics& k, Plate<Dim>& plate) {
   const Eigen::Matrix3d R = k.orientation.toRotationMatrix();
   const auto& faces = local_faces_[static_cast<std::size_t>(plate_of_body_[plate.body])];
-  plate.center = narrow<Dim>(k.position);
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const Eigen::Vector3d normal = R * faces[f].normal;
     plate.faces[f] = {narrow<Dim>(normal), normal.dot(k.position + R * faces[f].point)};

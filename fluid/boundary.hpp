@@ -23,8 +23,6 @@ template <int Dim>
 struct Plate {
   std::size_t body;
   std::vector<Plane<Dim>> faces;
-  Vec<Dim> center;
-  double radius;  // of the ball around `center` that holds the plate's faces [m]
 };
 
 // The surface as a boundary particle behind it sees it.

@@ -241,7 +241,7 @@ void GalerkinSolver<Dim, Kernel>::compute_single_gradients() {
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::find_films() {
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
-    std::vector<std::uint32_t> buffer;
+    thread_local std::vector<std::uint32_t> buffer;
     const auto near =
         by_groups_ ? search_.groups().boundary_near_particle(i, buffer) : search_.boundary_near_fluid(i);
     if (!near.empty() && is_wedged<Dim>(model_, fluid_.node[i].x, near, boundary_))

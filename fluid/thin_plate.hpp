@@ -60,11 +60,12 @@ bool separates(const Plate<Dim>& plate, const Vec<Dim>& x, const Vec<Dim>& y) {
   return crosses(plate, x, y);
 }
 
-// Whether a pair with an end at x can be affected by the plate.
+// Whether x is not further than `reach` in front of any face of the plate: only pairs with both ends so,
+// `reach` being their length, can be affected by it.
 template <int Dim>
 bool is_near(const Plate<Dim>& plate, const Vec<Dim>& x, double reach) {
-  const double limit = plate.radius + reach;
-  return (x - plate.center).squaredNorm() < limit * limit;
+  return std::all_of(plate.faces.begin(), plate.faces.end(),
+                     [&](const Plane<Dim>& face) { return face.distance(x) < reach; });
 }
 
 }  // namespace sluice::fluid

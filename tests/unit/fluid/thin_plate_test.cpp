@@ -58,8 +58,10 @@ TEST_F(UprightPlate, DoesNotSeparateWhatSeesEachOtherPastIt) {
   EXPECT_FALSE(separates(plate_, Vec<2>(0.2, 0.0), Vec<2>(0.1, 0.0)));  // it would be hit farther on
 }
 
-TEST_F(UprightPlate, IsNearWithinReachOfItsParticles) {
+TEST_F(UprightPlate, IsNearWithinReachOfItsFaces) {
   EXPECT_TRUE(is_near(plate_, Vec<2>(0.0, 0.6), 0.2));
+  EXPECT_TRUE(is_near(plate_, Vec<2>(0.2, 0.0), 0.2));
+  EXPECT_FALSE(is_near(plate_, Vec<2>(0.4, 0.0), 0.2));
   EXPECT_FALSE(is_near(plate_, Vec<2>(0.0, 2.0), 0.2));
 }
 
