@@ -98,7 +98,13 @@ TEST(Window, MomentumClosesInEveryScheme) {
 
 TEST(Window, ImplicitIsStableWhereExplicitIsNot) {
   for (const std::size_t count : {1u, 8u}) {
-    EXPECT_GT(run(coupling(EXPLICIT), 1e-2, 400, count, count == 1 ? 40 : 8).fastest, 1e2) << count;
+    double grown = 0;
+    try {
+      grown = run(coupling(EXPLICIT), 1e-2, 400, count, 40).fastest;
+    } catch (const std::exception&) {  // the world refuses what is no longer finite
+      grown = INFINITY;
+    }
+    EXPECT_GT(grown, 1e2) << count;
     const Course stable = run(coupling(IMPLICIT, 1e-4), 1e-2, 400, count, 400);
     EXPECT_LT(stable.fastest, 0.1) << count;
     EXPECT_LT(stable.most_iterations, 50) << count;
