@@ -40,6 +40,8 @@ CouplingPlan plan_coupling(const Scene& scene, const fluid::Setup& setup, double
   const bool all_stable = std::all_of(plan.stability.begin(), plan.stability.end(),
                                       [](const BodyStability& b) { return b.indicator() <= b.allowed(); });
   plan.coupling.set_scheme(all_stable ? EXPLICIT : IMPLICIT);
+  // Relaxation by one number finds many steps at once of a light body only badly.
+  if (!all_stable) plan.coupling.set_steps_per_exchange(1);
   return plan;
 }
 
