@@ -23,13 +23,16 @@ double cross_section(const Boundary& body, int dimension) {
 
 }  // namespace
 
+double body_impedance(const Setup& setup, std::size_t body) {
+  return 2.0 * setup.liquid.density * setup.liquid.sound_speed *
+         cross_section(setup.bodies[body], setup.dimension);
+}
+
 double largest_body_step(const Setup& setup) {
   double largest = std::numeric_limits<double>::infinity();
-  const double impedance = setup.liquid.density * setup.liquid.sound_speed;
-  for (const Boundary& body : setup.bodies) {
-    if (body.free_mass <= 0.0) continue;
-    const double area = cross_section(body, setup.dimension);
-    largest = std::min(largest, kLargestShare * body.free_mass / (2.0 * impedance * area));
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const double mass = setup.bodies[b].free_mass;
+    if (mass > 0.0) largest = std::min(largest, kLargestShare * mass / body_impedance(setup, b));
   }
   return largest;
 }

@@ -12,4 +12,7 @@ namespace sluice::fluid {
 // Light bodies set the step of the run by it; the share is measured (tests/benchmark/README.md).
 double largest_body_step(const Setup& setup);
 
+// 2 rho0 c0 A of that body [kg/s], per metre of depth in two dimensions.
+double body_impedance(const Setup& setup, std::size_t body);
+
 }  // namespace sluice::fluid

@@ -2,6 +2,7 @@
 
 // What GalerkinSolver tells of its state.
 
+#include "fluid/force_parts.hpp"
 #include "fluid/galerkin_solver.hpp"
 
 namespace sluice::fluid {
@@ -42,20 +43,50 @@ Diagnostics GalerkinSolver<Dim, Kernel>::diagnostics() const {
   return d;
 }
 
+template <int Dim, typename Kernel>
+std::vector<WrenchParts> GalerkinSolver<Dim, Kernel>::wrench_parts() const {
+  std::vector<WrenchParts> parts(wrench_.size() - 1);
+  const auto add = [&](std::size_t i, std::size_t w) {
+    if (boundary_.body(w) == 0) return;
+    const auto b = static_cast<std::size_t>(boundary_.body(w) - 1);
+    const ReactionParts<Dim> pair = reaction_parts<Dim>(model_, fluid_, i, w, boundary_);
+    const Eigen::Vector3d arm = widen<Dim>(boundary_.node()[w].x) - bodies_[b].position;
+    const Eigen::Vector3d guard = widen<Dim>(pair.guard), viscous = widen<Dim>(pair.viscous.force);
+    parts[b].guard.force += guard;
+    parts[b].guard.moment += arm.cross(guard);
+    parts[b].viscous.force += viscous;
+    parts[b].viscous.moment += arm.cross(viscous) + pair.viscous.couple;
+  };
+  for_boundary_pairs(add);
+  for (std::size_t b = 0; b < parts.size(); ++b) {
+    const Wrench& all = wrench_[b + 1];
+    parts[b].pressure.force = all.force - parts[b].guard.force - parts[b].viscous.force;
+    parts[b].pressure.moment = all.moment - parts[b].guard.moment - parts[b].viscous.moment;
+  }
+  return parts;
+}
+
+// Calls visit(i, w) for every fluid particle, images included, near a boundary particle; maybe for some that
+// are a little farther than the support.
+template <int Dim, typename Kernel>
+template <typename Visit>
+void GalerkinSolver<Dim, Kernel>::for_boundary_pairs(const Visit& visit) const {
+  if (by_groups_) {
+    search_.groups().for_boundary_pairs(boundary_.size(), visit);
+    return;
+  }
+  const auto& active = search_.active_boundary();
+  for (std::size_t a = 0; a < active.size(); ++a)
+    for (const std::uint32_t i : search_.fluid_near_active(a)) visit(i, active[a]);
+}
+
 // Energy of the penetration guard [J].
 template <int Dim, typename Kernel>
 double GalerkinSolver<Dim, Kernel>::stored_in_guard() const {
   double energy = 0;
-  const auto add = [&](std::size_t i, std::size_t w) {
+  for_boundary_pairs([&](std::size_t i, std::size_t w) {
     if (i < fluid_.size()) energy += guard_energy<Dim>(model_, fluid_.node[i].x - boundary_.node()[w].x);
-  };
-  if (by_groups_) {
-    search_.groups().for_boundary_pairs(boundary_.size(), add);
-    return energy;
-  }
-  const auto& active = search_.active_boundary();
-  for (std::size_t a = 0; a < active.size(); ++a)
-    for (const std::uint32_t i : search_.fluid_near_active(a)) add(i, active[a]);
+  });
   return energy;
 }
 

@@ -4,6 +4,7 @@
 
 #include "fluid/body_step.hpp"
 #include "fluid/boundary.hpp"
+#include "fluid/checkpoint.hpp"
 #include "fluid/force_sweep.hpp"
 #include "fluid/group_stages.hpp"
 #include "fluid/history.hpp"
@@ -30,7 +31,11 @@ class GalerkinSolver final : public Solver {
   void start(std::span<const Kinematics> bodies) override;
   void step(double dt, std::span<const Kinematics> bodies) override;
 
+  void save() override;
+  void restore() override;
+
   [[nodiscard]] std::span<const Wrench> wrenches() const override;
+  [[nodiscard]] std::vector<WrenchParts> wrench_parts() const override;
   [[nodiscard]] Wrench wall_wrench() const override { return wrench_[0]; }
   [[nodiscard]] double largest_step(double max_speed) const override;
   [[nodiscard]] Snapshot snapshot() const override;
@@ -66,6 +71,12 @@ class GalerkinSolver final : public Solver {
   void collect_wrenches();
   void update_volumes();
 
+  // All that a step changes but the neighbour search.
+  auto state() {
+    return std::tie(coefficients_, fluid_, boundary_, surface_, shifting_, bodies_, lagged_, reaction_,
+                    wrench_, last_wrench_, history_, interpolated_, boundary_work_);
+  }
+
   [[nodiscard]] GroupStages<Dim> group_stages() const requires kHasGroups {
     return {model_, search_.groups(), parallel_};
   }
@@ -80,6 +91,8 @@ class GalerkinSolver final : public Solver {
   [[nodiscard]] double inertia(std::size_t i) const;
 
   [[nodiscard]] double stored_in_guard() const;
+  template <typename Visit>
+  void for_boundary_pairs(const Visit& visit) const;
   [[nodiscard]] bool is_measured(std::size_t w) const;
   [[nodiscard]] double boundary_power(const std::vector<Wrench>& wrench) const;
 
@@ -112,6 +125,14 @@ class GalerkinSolver final : public Solver {
   double courant_;
   double body_step_;  // [s]
   double boundary_work_ = 0;
+
+  Checkpoint<std::vector<typename Operator<Dim, Kernel>::Coefficients>, Particles<Dim>,
+             BoundaryParticles<Dim>, FreeSurface<Dim>, Shifting<Dim>, std::vector<Kinematics>,
+             std::vector<LaggedAcceleration>, std::vector<Reaction<Dim>>, std::vector<Wrench>,
+             std::vector<Wrench>, History<Dim>, std::vector<Vec<Dim>>, double>
+      saved_;
+  Checkpoint<NeighborSearch<Dim>> saved_search_;
+  std::uint64_t saved_rebuilds_ = 0;
 };
 
 }  // namespace sluice::fluid

@@ -9,6 +9,7 @@
 #include "fluid/damped_viscosity.hpp"
 #include "fluid/galerkin_boundary.hpp"
 #include "fluid/galerkin_results.hpp"
+#include "fluid/galerkin_rollback.hpp"
 #include "fluid/galerkin_solver.hpp"
 #include "fluid/gradient_sweep.hpp"
 #include "fluid/integrators.hpp"
@@ -109,7 +110,8 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       interpolated_motion_(setup.formulation.interpolated_motion),
       initial_parameters_(setup.formulation.initial_parameters),
       courant_(setup.formulation.courant),
-      body_step_(largest_body_step(setup)) {}
+      body_step_(setup.limit_step_by_bodies ? largest_body_step(setup)
+                                            : std::numeric_limits<double>::infinity()) {}
 
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::start(std::span<const Kinematics> bodies) {

@@ -21,4 +21,11 @@ struct Wrench {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
 };
 
+// What the force on a body consists of; the sum is the wrench. Viscous and pressure parts are told apart by
+// the default operator only, all else counts as pressure.
+struct WrenchParts {
+  Wrench pressure, viscous;
+  Wrench guard;  // springs against penetration
+};
+
 }  // namespace sluice::fluid

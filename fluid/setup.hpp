@@ -109,6 +109,7 @@ struct Setup {
   Boundary walls;                   // at rest, world frame
   bool measure_wall_force = false;  // the walls' wrench costs a sweep over wall particles near the fluid
   std::vector<Boundary> bodies;
+  bool limit_step_by_bodies = true;  // see body_step.hpp; not where the exchange with them is iterated
   int threads = 1;
 
   [[nodiscard]] bool has_viscous_stress() const {

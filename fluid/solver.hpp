@@ -41,7 +41,15 @@ class Solver {
   // holds the fluid's action on each body at the end of the step. Precondition: dt <= largest_step().
   virtual void step(double dt, std::span<const Kinematics> bodies) = 0;
 
+  // Keeps the state in memory, and goes back to it: what follows is what followed the first time, to the last
+  // bit, if the same kinematics are given. One state is kept; restore may be called again. Precondition of
+  // restore: save was called.
+  virtual void save() = 0;
+  virtual void restore() = 0;
+
   [[nodiscard]] virtual std::span<const Wrench> wrenches() const = 0;
+  // Of the same bodies at the same time. Costs a look at every pair of fluid and body.
+  [[nodiscard]] virtual std::vector<WrenchParts> wrench_parts() const = 0;
   // The fluid's action on the walls, moment about the origin; zero unless setup.measure_wall_force.
   [[nodiscard]] virtual Wrench wall_wrench() const = 0;
 

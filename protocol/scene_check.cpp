@@ -98,6 +98,7 @@ std::vector<Problem> check_fields(const Scene& scene) {
   check_liquid(scene.liquid(), check);
   check_output(scene, check);
   check_formulation(scene, check);
+  check_coupling(scene, check);
   if (scene.dimension() == 2 || scene.dimension() == 3) {
     check_domain(scene, check);
     check_regions(scene, check);

@@ -111,6 +111,17 @@ void fill_formulation(Formulation& formulation, unsigned dimension, bool periodi
   if (!formulation.has_shifting()) formulation.set_shifting(periodic ? 6 : 0);
 }
 
+void fill_coupling(Coupling& coupling) {
+  if (coupling.scheme() == COUPLING_UNSPECIFIED) coupling.set_scheme(EXPLICIT);
+  if (!coupling.has_steps_per_exchange()) coupling.set_steps_per_exchange(1);
+  if (coupling.scheme() == EXPLICIT) {
+    if (!coupling.has_shorten_steps()) coupling.set_shorten_steps(true);
+    return;
+  }
+  if (!coupling.has_tolerance()) coupling.set_tolerance(1e-3);
+  if (!coupling.has_most_iterations()) coupling.set_most_iterations(20);
+}
+
 }  // namespace
 
 Scene with_defaults(const Scene& scene) {
@@ -130,6 +141,7 @@ Scene with_defaults(const Scene& scene) {
   for (auto& body : *full.mutable_body()) fill_body(body, dimension);
   if (!full.output().has_rate()) full.mutable_output()->set_rate(kFrames / full.duration());
   fill_formulation(*full.mutable_formulation(), full.dimension(), full.domain().periodic_size() > 0);
+  fill_coupling(*full.mutable_coupling());
   return full;
 }
 

@@ -1,5 +1,6 @@
 #include "protocol/sim_time.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -76,6 +77,11 @@ Nanoseconds StepClock::time(std::uint64_t step) const {
   const auto whole = static_cast<Nanoseconds>(step / steps_per_interval_);
   const auto part = static_cast<Nanoseconds>(step % steps_per_interval_);
   return whole * interval_ + static_cast<Nanoseconds>(Wide{part} * interval_ / per_interval);
+}
+
+std::uint64_t StepClock::exchange_end(std::uint64_t first, std::uint64_t count) const {
+  const std::uint64_t next_output = ((first - 1) / steps_per_interval_ + 1) * steps_per_interval_;
+  return std::min({first + count - 1, next_output, steps_});
 }
 
 Nanoseconds StepClock::duration(std::uint64_t step) const {

@@ -24,6 +24,9 @@ class StepClock {
   [[nodiscard]] Nanoseconds duration(std::uint64_t step) const;  // time(step) - time(step - 1), step >= 1
   [[nodiscard]] bool is_output(std::uint64_t step) const { return step % steps_per_interval_ == 0; }
 
+  // The last step of an exchange of up to `count` steps from `first` on; it does not go beyond an output.
+  [[nodiscard]] std::uint64_t exchange_end(std::uint64_t first, std::uint64_t count) const;
+
   [[nodiscard]] Nanoseconds interval() const { return interval_; }
   [[nodiscard]] std::uint64_t steps_per_interval() const { return steps_per_interval_; }
   [[nodiscard]] std::uint64_t steps() const { return steps_; }

@@ -59,6 +59,7 @@ struct ContactDrift::Bullet {
   void add_wall(const Tank& tank, int axis, bool upper);
   void add_body(const BodySpec& body, double half_depth);
   void set_free(std::size_t b, const FreeBody& free);
+  void set_held(std::size_t b);
   [[nodiscard]] std::size_t index_of(const btCollisionObject* object) const;
   [[nodiscard]] std::vector<Touch> touches(double dt, std::span<const FreeBody::Drift> before,
                                            std::span<const FreeBody::Drift> after);
@@ -124,6 +125,15 @@ void ContactDrift::Bullet::set_free(std::size_t b, const FreeBody& free) {
   body.setLinearFactor(to_bullet(free.free_axes()));
   body.setAngularFactor(to_bullet(free.free_turns()));
   body.updateInertiaTensor();
+  body.setActivationState(DISABLE_DEACTIVATION);
+  world.addRigidBody(&body);
+}
+
+void ContactDrift::Bullet::set_held(std::size_t b) {
+  btRigidBody& body = *bodies[b];
+  world.removeRigidBody(&body);
+  body.setMassProps(0, btVector3(0, 0, 0));
+  body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
   body.setActivationState(DISABLE_DEACTIVATION);
   world.addRigidBody(&body);
 }
@@ -202,6 +212,9 @@ void ContactDrift::release(std::size_t b, const FreeBody& free) {
   bullet_->set_free(b, free);
 }
 
+void ContactDrift::hold(std::size_t b) {
+  bullet_->set_held(b);
+}
 void ContactDrift::step(double dt, std::span<FreeBody::Drift> bodies) {
   const std::vector<FreeBody::Drift> before(bodies.begin(), bodies.end());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -222,6 +235,13 @@ void ContactDrift::step(double dt, std::span<FreeBody::Drift> bodies) {
     bodies[b].angular_velocity = from_bullet(body.getAngularVelocity());
   }
   bullet_->rebound(dt, before, bodies);
+}
+
+void ContactDrift::drop_contacts() {
+  btOverlappingPairCache& cache = *bullet_->broadphase.getOverlappingPairCache();
+  btBroadphasePairArray& pairs = cache.getOverlappingPairArray();
+  for (int p = 0; p < pairs.size(); ++p) cache.cleanOverlappingPair(pairs[p], &bullet_->dispatcher);
+  bullet_->solver.reset();
 }
 
 }  // namespace sluice::rigid

@@ -21,10 +21,15 @@ class ContactDrift {
 
   // Body `b`, prescribed so far, is free from now on.
   void release(std::size_t b, const FreeBody& free);
+  // The opposite.
+  void hold(std::size_t b);
 
   // In: poses at the start of the step and velocities over it. Out: for free bodies, the pose at its end and
   // the velocities after contact.
   void step(double dt, std::span<FreeBody::Drift> bodies);
+
+  // Forgets the contact points of the step before.
+  void drop_contacts();
 
  private:
   struct Bullet;

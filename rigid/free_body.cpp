@@ -63,15 +63,37 @@ void FreeBody::set_load(const Wrench& load) {
 }
 
 void FreeBody::kick(double dt) {
+  const Eigen::Vector3d velocity = velocity_, turn = angular_velocity(pose_.orientation);
   velocity_ += dt * acceleration();
   angular_momentum_ += dt * (wrench_.moment + load_.moment);
+  const Eigen::Vector3d way = 0.5 * (velocity + velocity_);
+  const Eigen::Vector3d turned = 0.5 * (turn + angular_velocity(pose_.orientation));
+  account_constraint({dt * load_.force, dt * load_.moment},
+                     dt * (load_.force.dot(way) + load_.moment.dot(turned)));
 }
 
 void FreeBody::apply_joint(const Wrench& impulse) {
-  velocity_ += impulse.force.cwiseProduct(free_axes_) / mass_;
-  angular_momentum_ += impulse.moment.cwiseProduct(free_turns_);
+  const double before = kinetic_energy();
+  push(impulse);
   joint_impulse_.force += impulse.force;
   joint_impulse_.moment += impulse.moment;
+  account_constraint(impulse, kinetic_energy() - before);
+}
+
+void FreeBody::account_constraint(const Wrench& impulse, double work) {
+  constraint_impulse_.force += impulse.force.cwiseProduct(free_axes_);
+  constraint_impulse_.moment += impulse.moment.cwiseProduct(free_turns_);
+  constraint_work_ += work;
+}
+
+void FreeBody::push(const Wrench& impulse) {
+  velocity_ += impulse.force.cwiseProduct(free_axes_) / mass_;
+  angular_momentum_ += impulse.moment.cwiseProduct(free_turns_);
+}
+
+double FreeBody::impulse_energy(const Wrench& impulse) const {
+  const Eigen::Vector3d force = impulse.force.cwiseProduct(free_axes_);
+  return 0.5 * (force.squaredNorm() / mass_ + impulse.moment.dot(response(impulse).angular_velocity));
 }
 
 void FreeBody::note_joint_impulse(double dt) {
@@ -145,6 +167,10 @@ Kinematics FreeBody::finish_drift(double dt, const Drift& before, const Drift& a
       after.pose.orientation * (rotation(dt * after.angular_velocity) * q).conjugate();
   step.angular_velocity = after.angular_velocity + above_round_off(rotation_vector(turn), 0) / dt;
 
+  account_constraint({mass_ * (after.velocity - before.velocity), impulse},
+                     0.5 * mass_ * (after.velocity.squaredNorm() - before.velocity.squaredNorm()) +
+                         0.5 * impulse.dot(after.angular_velocity + before.angular_velocity));
+
   pose_ = after.pose;
   // q and -q are one orientation; the sign is kept so that recorded components do not jump.
   if (pose_.orientation.dot(q) < 0) pose_.orientation.coeffs() = -pose_.orientation.coeffs();
@@ -158,6 +184,11 @@ Kinematics FreeBody::finish_drift(double dt, const Drift& before, const Drift& a
 Kinematics FreeBody::state() const {
   return {pose_.position, pose_.orientation,     velocity_, angular_velocity(pose_.orientation),
           acceleration(), angular_acceleration()};
+}
+
+Account FreeBody::account() const {
+  return {
+      {mass_ * velocity_, angular_momentum_}, constraint_impulse_, constraint_work_, kinetic_energy(), mass_};
 }
 
 double FreeBody::kinetic_energy() const {

@@ -26,6 +26,8 @@ class FreeBody {
   };
   // What an impulse changes of the velocities.
   [[nodiscard]] Response response(const Wrench& impulse) const;
+  // Adds momentum [N s] and angular momentum [N m s].
+  void push(const Wrench& impulse);
 
   // The constant angular velocity that carries the body through a drift of dt: that of the half-turned body.
   [[nodiscard]] Eigen::Vector3d drift_angular_velocity(double dt) const;
@@ -50,11 +52,16 @@ class FreeBody {
   // 1 along and about the world axes where the body may move and turn, 0 elsewhere.
   [[nodiscard]] const Eigen::Vector3d& free_axes() const { return free_axes_; }
   [[nodiscard]] const Eigen::Vector3d& free_turns() const { return free_turns_; }
+  [[nodiscard]] Account account() const;
+  // That of a body at rest after this impulse [J].
+  [[nodiscard]] double impulse_energy(const Wrench& impulse) const;
   [[nodiscard]] double mass() const { return mass_; }
   // In the body's frame [kg m^2].
   [[nodiscard]] const Eigen::Matrix3d& inertia() const { return inertia_; }
 
  private:
+  // Of contact, joints, springs and dampers: an impulse and the work that it did [J].
+  void account_constraint(const Wrench& impulse, double work);
   // Angular velocity times inertia.
   [[nodiscard]] Eigen::Vector3d angular_momentum(const Eigen::Quaterniond& orientation,
                                                  const Eigen::Vector3d& angular_velocity) const;
@@ -79,6 +86,8 @@ class FreeBody {
 
   Pose pose_;
   Eigen::Vector3d velocity_, angular_momentum_;
+  Wrench constraint_impulse_;
+  double constraint_work_ = 0;
   // Accelerations by contact in the last drift.
   Eigen::Vector3d contact_ = Eigen::Vector3d::Zero(), angular_contact_ = Eigen::Vector3d::Zero();
 };

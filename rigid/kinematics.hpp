@@ -21,4 +21,14 @@ struct Wrench {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
 };
 
+// What a free body has and what contact and joints gave to it since the start. Moments about the centre of
+// mass.
+struct Account {
+  Wrench momentum;             // [kg m/s] and angular [kg m^2/s]
+  Wrench constraint_impulse;   // by contact and joints [N s], [N m s]
+  double constraint_work = 0;  // of it [J]
+  double kinetic_energy = 0;   // [J]
+  double mass = 0;             // [kg]
+};
+
 }  // namespace sluice::rigid

@@ -75,6 +75,12 @@ struct World::Parts {
   std::unique_ptr<ContactDrift> contact;  // absent where no body is free
   JointSolver joints;
   std::vector<Wrench> load;  // of springs and dampers, at the end of the last step
+  // What save() kept.
+  struct Saved {
+    std::vector<std::optional<FreeBody>> free;
+    std::vector<Offset> offset;
+    std::vector<Wrench> wrench, load;
+  } saved;
 
   explicit Parts(WorldSpec s)
       : spec(std::move(s)),
@@ -277,14 +283,47 @@ void World::correct(double dt, std::span<const Wrench> wrenches) {
     if (free) free->kick(dt / 2);
 }
 
+void World::push(std::span<const Wrench> impulses) {
+  for (std::size_t b = 0; b < impulses.size(); ++b)
+    if (auto& free = parts_->free[b]) free->push(impulses[b]);
+}
+
+void World::save() {
+  parts_->saved = {parts_->free, parts_->offset, parts_->wrench, parts_->load};
+  if (parts_->contact) parts_->contact->drop_contacts();
+}
+
+void World::restore() {
+  const Parts::Saved& saved = parts_->saved;
+  for (std::size_t b = 0; b < saved.free.size(); ++b)
+    if (parts_->free[b] && !saved.free[b]) parts_->contact->hold(b);
+  parts_->free = saved.free;
+  parts_->offset = saved.offset;
+  parts_->wrench = saved.wrench;
+  parts_->load = saved.load;
+  if (parts_->contact) parts_->contact->drop_contacts();
+}
+
 std::size_t World::size() const {
   return parts_->free.size();
 }
 bool World::has_free_bodies() const {
   return parts_->is_any_ever_free();
 }
+bool World::is_free(std::size_t body) const {
+  return parts_->free.at(body).has_value();
+}
+double World::mass(std::size_t body) const {
+  return parts_->free.at(body).value().mass();
+}
+double World::impulse_energy(std::size_t body, const Wrench& impulse) const {
+  return parts_->free.at(body).value().impulse_energy(impulse);
+}
 Kinematics World::state(std::size_t body) const {
   return parts_->free.at(body).value().state();
+}
+Account World::account(std::size_t body) const {
+  return parts_->free.at(body).value().account();
 }
 double World::kinetic_energy(std::size_t body) const {
   return parts_->free.at(body).value().kinetic_energy();

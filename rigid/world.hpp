@@ -76,12 +76,28 @@ class World {
   // not read. Throws std::invalid_argument when there is not one finite wrench for every body.
   void correct(double dt, std::span<const Wrench> wrenches);
 
+  // Adds momentum [N s] and angular momentum [N m s] to the free bodies.
+  void push(std::span<const Wrench> impulses);
+
+  // Keeps the state of the bodies in memory, and goes back to it. Contact points are dropped by both, so that
+  // every start from the saved state is the same.
+  void save();
+  void restore();
+
   [[nodiscard]] std::size_t size() const;
+  // At present.
+  [[nodiscard]] bool is_free(std::size_t body) const;
+  // Of a free body [kg].
+  [[nodiscard]] double mass(std::size_t body) const;
+  // Kinetic energy that an impulse would give to a free body at rest in its present orientation [J].
+  [[nodiscard]] double impulse_energy(std::size_t body, const Wrench& impulse) const;
   // Now or later.
   [[nodiscard]] bool has_free_bodies() const;
   // State at the end of the last whole step, with the velocities at that instant. For bodies that are free by
   // then.
   [[nodiscard]] Kinematics state(std::size_t body) const;
+  // Of a free body, at the same time.
+  [[nodiscard]] Account account(std::size_t body) const;
   // Kinetic energy of a free body at the end of the last whole step [J].
   [[nodiscard]] double kinetic_energy(std::size_t body) const;
 

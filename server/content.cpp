@@ -65,6 +65,10 @@ Message welcome(const Simulation& simulation, const protocol::Endpoint& endpoint
   content.set_record_endpoint(endpoint.record);
   content.set_sound_speed(simulation.scene.liquid().sound_speed());
   content.set_particle_mass(simulation.particle_mass);
+  if (simulation.has_free_body()) {
+    *content.mutable_coupling() = simulation.coupling.coupling;
+    for (const BodyStability& body : simulation.coupling.stability) *content.add_stability() = body;
+  }
   if (role == RIGID) {
     add_wrenches(message, "wrenches", simulation.initial_wrenches);
   } else {

@@ -29,7 +29,13 @@ Stop silent_recorder(milliseconds deadline) {
 }
 
 Exchange make_exchange(const Simulation& simulation) {
-  return {simulation.bodies.size(), simulation.clock.steps(), simulation.has_free_body()};
+  const sluice::Coupling& coupling = simulation.coupling.coupling;
+  return {simulation.bodies.size(),
+          simulation.clock.steps(),
+          {.lock_step = simulation.has_free_body(),
+           .steps_per_exchange = coupling.steps_per_exchange(),
+           .steps_per_output = simulation.clock.steps_per_interval(),
+           .is_iterated = simulation.is_iterated()}};
 }
 
 }  // namespace
@@ -39,6 +45,8 @@ Coupling::Coupling(const Simulation& simulation, Sockets& sockets, const Options
       sockets_(sockets),
       options_(options),
       bodies_(simulation.bodies.size()),
+      lock_step_(simulation.has_free_body()),
+      is_iterated_(simulation.is_iterated()),
       session_(sockets.exchange, {.rigid = bodies_ > 0, .recorder = options.expect_recorder},
                [this](Role role) { return welcome(simulation_, sockets_.endpoint, role); }),
       exchange_(make_exchange(simulation)),
@@ -62,13 +70,23 @@ void Coupling::wait_for_participants() {
   progress_ = Progress();
 }
 
-std::span<const fluid::Kinematics> Coupling::kinematics(std::uint64_t step) {
-  if (bodies_ == 0) return {};
+std::uint64_t Coupling::exchange_end(std::uint64_t first) {
+  if (!lock_step_) return first;
+  wait_for_kinematics(first);
+  return exchange_.last_step();
+}
+
+void Coupling::wait_for_kinematics(std::uint64_t step) {
   wait_until([&] { return exchange_.has(step); }, options_.deadline,
              [&] {
                const std::string what = fmt::format("the rigid process sent no kinematics of step {}", step);
                return Stop(End::PARTICIPANT_TIMEOUT, late(what, options_.deadline));
              });
+}
+
+std::span<const fluid::Kinematics> Coupling::kinematics(std::uint64_t step) {
+  if (bodies_ == 0) return {};
+  wait_for_kinematics(step);
   const std::span<const double> rows = exchange_.rows(step);
   rows_.assign(rows.begin(), rows.end());
   return exchange_.kinematics(step);
@@ -78,13 +96,31 @@ void Coupling::answer(std::uint64_t step) {
   step_ = step;
   if (bodies_ == 0) return;
   const std::span<const fluid::Wrench> wrenches = simulation_.solver->wrenches();
+  if (options_.expect_recorder)
+    log_.add(step, rows_, wrenches, simulation_.solver->wrench_parts(), exchange_.ledger());
   if (std::optional<Message> reply = exchange_.answer(step, wrenches)) {
     stamp(reply->header);
     session_.send(RIGID, std::move(*reply));
   }
-  if (!options_.expect_recorder) return;
-  log_.add(step, rows_, wrenches);
+}
+
+bool Coupling::repeats() {
+  if (is_iterated_) {
+    wait_until([&] { return exchange_.is_decided(); }, options_.deadline,
+               [&] {
+                 const std::string what = fmt::format(
+                     "the rigid process neither accepted nor repeated the exchange up to step {}", step_);
+                 return Stop(End::PARTICIPANT_TIMEOUT, late(what, options_.deadline));
+               });
+    if (exchange_.is_repeated()) {
+      log_.drop();
+      return true;
+    }
+  }
+  const Accepted& accepted = exchange_.accepted();
+  log_.accept(is_iterated_ ? accepted.iterations() : 1, accepted.residual());
   if (log_.full()) record_log();
+  return false;
 }
 
 void Coupling::output(std::uint64_t step) {
@@ -177,6 +213,8 @@ void Coupling::dispatch(const Session::Inbound& inbound) {
       if (!reply) return;
       stamp(reply->header);
       session_.send(RIGID, std::move(*reply));
+    } else if (inbound.role == RIGID && header.has_accepted()) {
+      exchange_.accept_exchange(header.accepted());
     } else if (inbound.role == RECORDER && header.has_acknowledgement()) {
       recorder_.acknowledge(header.acknowledgement().sequence());
     } else {

@@ -34,8 +34,13 @@ class Coupling {
 
   // The bodies' poses over a step; waits for the rigid process. Empty when the scene has no bodies.
   std::span<const fluid::Kinematics> kinematics(std::uint64_t step);
+  // The last step that may be taken before the rigid process has to be heard again; waits for it.
+  std::uint64_t exchange_end(std::uint64_t first);
   // The step is done: logs the exchange and answers the rigid process with the solver's wrenches.
   void answer(std::uint64_t step);
+  // Whether the steps answered since exchange_end are to be done again, from the state before them; waits for
+  // the rigid process where exchanges are iterated. When not, they are logged.
+  bool repeats();
   // Hands the state to the recorder and the watchers; waits while the recorder is too far behind.
   void output(std::uint64_t step);
   // Looks after messages and publishes the status. Costs next to nothing when it was called just before.
@@ -49,6 +54,7 @@ class Coupling {
   // Serves messages until done(); throws fail() when that takes longer than the deadline.
   template <typename Done, typename Fail>
   void wait_until(const Done& done, std::chrono::milliseconds deadline, const Fail& fail);
+  void wait_for_kinematics(std::uint64_t step);
   void service(std::chrono::milliseconds timeout);
   void dispatch(const Session::Inbound& inbound);
   void record(protocol::Message message);
@@ -62,6 +68,7 @@ class Coupling {
   Sockets& sockets_;
   Options options_;
   std::size_t bodies_;
+  bool lock_step_, is_iterated_;
   Session session_;
   Exchange exchange_;
   ExchangeLogger log_;

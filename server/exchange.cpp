@@ -22,8 +22,8 @@ std::string shape_text(const std::vector<std::uint64_t>& shape) {
 
 }  // namespace
 
-Exchange::Exchange(std::size_t bodies, std::uint64_t steps, bool lock_step)
-    : bodies_(bodies), steps_(steps), lock_step_(lock_step) {}
+Exchange::Exchange(std::size_t bodies, std::uint64_t steps, const Terms& terms)
+    : bodies_(bodies), steps_(steps), terms_(terms) {}
 
 std::optional<Message> Exchange::accept(const Message& message) {
   const std::uint64_t sequence = message.header.sequence();
@@ -36,9 +36,15 @@ std::optional<Message> Exchange::accept(const Message& message) {
   check(message);
   const Kinematics& content = message.header.kinematics();
   const std::span<const double> rows = message.array<double>("kinematics");
-  batches_.push_back({sequence, content.first_step(), content.count(), {rows.begin(), rows.end()}, {}});
+  batches_.push_back({sequence,
+                      content.first_step(),
+                      content.count(),
+                      content.iteration(),
+                      {rows.begin(), rows.end()},
+                      read_ledger(message),
+                      {}});
   last_sequence_ = sequence;
-  last_step_ += content.count();
+  last_step_ = content.first_step() + content.count() - 1;
   return std::nullopt;
 }
 
@@ -49,17 +55,14 @@ void Exchange::check(const Message& message) const {
                   fmt::format("sequence {} came, expected {}", sequence, last_sequence_ + 1));
   }
   const Kinematics& content = message.header.kinematics();
-  if (content.first_step() != last_step_ + 1) {
-    throw Refused(Refusal::BAD_SEQUENCE, fmt::format("kinematics of step {} came, expected step {}",
-                                                     content.first_step(), last_step_ + 1));
-  }
+  check_turn(content);
   if (batches_.size() >= kMostUnanswered) {
     throw Refused(Refusal::BAD_MESSAGE,
                   fmt::format("{} messages wait for their answer; wait for one before sending "
                               "sequence {}",
                               batches_.size(), sequence));
   }
-  const std::uint64_t most = std::min<std::uint64_t>(lock_step_ ? 1 : kMostSteps, steps_ - last_step_);
+  const std::uint64_t most = most_steps(content);
   if (content.count() < 1 || content.count() > most) {
     throw Refused(Refusal::BAD_MESSAGE,
                   fmt::format("kinematics of {} steps from step {}; allowed are 1 to {}", content.count(),
@@ -76,6 +79,49 @@ void Exchange::check(const Message& message) const {
   } catch (const protocol::ProtocolError& error) {
     throw Refused(Refusal::BAD_MESSAGE, error.what());
   }
+}
+
+// Whether it is the turn of these steps.
+void Exchange::check_turn(const Kinematics& content) const {
+  if (content.iteration() > 0) {
+    if (open_ && content.first_step() == open_->first_step && content.count() == open_->count &&
+        content.iteration() == open_->iteration + 1)
+      return;
+    throw Refused(Refusal::BAD_SEQUENCE,
+                  fmt::format("iteration {} of {} steps from step {} came; {}", content.iteration(),
+                              content.count(), content.first_step(),
+                              open_ ? fmt::format("expected iteration {} of {} steps from step {}",
+                                                  open_->iteration + 1, open_->count, open_->first_step)
+                                    : "no exchange is open"));
+  }
+  if (content.first_step() != last_step_ + 1)
+    throw Refused(Refusal::BAD_SEQUENCE, fmt::format("kinematics of step {} came, expected step {}",
+                                                     content.first_step(), last_step_ + 1));
+  if (open_)
+    throw Refused(Refusal::BAD_SEQUENCE,
+                  fmt::format("kinematics of step {} came before the exchange from step {} was accepted",
+                              content.first_step(), open_->first_step));
+}
+
+std::uint64_t Exchange::most_steps(const Kinematics& content) const {
+  const std::uint64_t first = content.first_step(), left = steps_ - first + 1;
+  if (!terms_.lock_step) return std::min<std::uint64_t>(kMostSteps, left);
+  const std::uint64_t to_output = terms_.steps_per_output - (first - 1) % terms_.steps_per_output;
+  return std::min({terms_.steps_per_exchange, to_output, left});
+}
+
+void Exchange::accept_exchange(const Accepted& accepted) {
+  if (!open_ || accepted.first_step() != open_->first_step || accepted.count() != open_->count)
+    throw Refused(
+        Refusal::BAD_SEQUENCE,
+        fmt::format("{} steps from step {} were accepted; {}", accepted.count(), accepted.first_step(),
+                    open_ ? fmt::format("{} from step {} wait for it", open_->count, open_->first_step)
+                          : "none wait for it"));
+  if (!std::isfinite(accepted.residual()))
+    throw Refused(Refusal::BAD_MESSAGE,
+                  fmt::format("a residual of {}; it must be finite", accepted.residual()));
+  accepted_ = accepted;
+  open_.reset();
 }
 
 void Exchange::check_rows(std::span<const double> rows, std::uint64_t first_step) const {
@@ -105,6 +151,36 @@ bool Exchange::has(std::uint64_t step) const {
   return batch.first_step <= step && step < batch.first_step + batch.count;
 }
 
+std::vector<double> Exchange::read_ledger(const Message& message) const {
+  std::vector<double> ledger(bodies_ * kLedgerRow, 0.0);
+  const auto& arrays = message.header.array();
+  const bool present =
+      std::any_of(arrays.begin(), arrays.end(), [](const Array& a) { return a.name() == "ledger"; });
+  if (!present) return ledger;
+  try {
+    const std::span<const double> given = message.array<double>("ledger");
+    if (given.size() != ledger.size() ||
+        !std::all_of(given.begin(), given.end(), [](double x) { return std::isfinite(x); }))
+      throw Refused(Refusal::BAD_MESSAGE,
+                    fmt::format("array ledger has {} values; {} finite ones are allowed, {} a body",
+                                given.size(), ledger.size(), kLedgerRow));
+    ledger.assign(given.begin(), given.end());
+  } catch (const protocol::ProtocolError& error) {
+    throw Refused(Refusal::BAD_MESSAGE, error.what());
+  }
+  return ledger;
+}
+
+std::span<const double> Exchange::ledger() const {
+  assert(!batches_.empty());
+  return batches_.front().ledger;
+}
+
+std::uint64_t Exchange::last_step() const {
+  assert(!batches_.empty());
+  return batches_.front().first_step + batches_.front().count - 1;
+}
+
 std::span<const double> Exchange::rows(std::uint64_t step) const {
   assert(has(step));
   const Batch& batch = batches_.front();
@@ -128,6 +204,7 @@ std::optional<Message> Exchange::answer(std::uint64_t step, std::span<const flui
   if (step + 1 < batch.first_step + batch.count) return std::nullopt;
 
   replies_.push_back(reply(batch));
+  if (terms_.is_iterated) open_ = {batch.first_step, batch.count, batch.iteration};
   if (replies_.size() > kMostUnanswered) replies_.pop_front();
   batches_.pop_front();
   return replies_.back().clone();

@@ -16,16 +16,26 @@ class ExchangeLogger {
 
   explicit ExchangeLogger(std::size_t bodies) : bodies_(bodies) {}
 
-  void add(std::uint64_t step, std::span<const double> kinematics, std::span<const fluid::Wrench> wrenches);
-  [[nodiscard]] bool full() const { return count_ >= kMostSteps; }
+  // A step of an exchange that may still be repeated.
+  void add(std::uint64_t step, std::span<const double> kinematics, std::span<const fluid::Wrench> wrenches,
+           std::span<const fluid::WrenchParts> parts, std::span<const double> ledger);
+  // The steps added since the last call are those of an exchange: now they count; or never.
+  void accept(std::uint32_t iterations, double residual);
+  void drop();
+  [[nodiscard]] bool full() const { return rows_.count >= kMostSteps; }
   // What was collected since the last call, if anything.
   std::optional<protocol::Message> take();
 
  private:
   std::size_t bodies_;
+  struct Rows {
+    std::uint64_t count = 0;
+    std::vector<double> kinematics, wrenches, parts, ledger;
+  };
+
   std::uint64_t first_step_ = 0;
-  std::uint64_t count_ = 0;
-  std::vector<double> kinematics_, wrenches_;
+  Rows pending_, rows_;
+  std::vector<double> coupling_;
 };
 
 }  // namespace sluice::server

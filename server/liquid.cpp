@@ -7,6 +7,7 @@
 #include "fluid/sampling.hpp"
 #include "server/geometry.hpp"
 #include "server/initial_fields.hpp"
+#include "server/packing.hpp"
 
 namespace sluice::server {
 
@@ -16,9 +17,10 @@ namespace {
 
 // Beyond this a scene is refused: at about 1 kB a particle it would not fit any machine's memory.
 constexpr double kMostParticles = 1e8;
-// A particle nearer than this to a surface, in spacings, is cut away by a body that displaces liquid ...
-constexpr double kCut = 0.5;
-// ... and an error at one that does not. Less than kCut, so that liquid up to a body's face is no error.
+// A particle nearer than this to a surface, in spacings, is cut away by a body that displaces liquid: those
+// whose volume is there in the mean. ...
+constexpr double kCut = 0.0;
+// ... and an error at one that does not.
 constexpr double kTooNear = 0.25;
 
 std::string region_name(int index) {
@@ -60,6 +62,7 @@ class Filling {
     for (const Eigen::Vector3d& x : lattice) particles.push_back({x + fields.displacement(x), x});
     check_inside_tank(r, particles);
     cut_bodies(particles);
+    pack(r, particles);
 
     for (const auto& [position, origin] : particles) {
       liquid_.position.push_back(position);
@@ -129,6 +132,21 @@ class Filling {
                         body.name(), particles.end() - cut));
       }
       particles.erase(cut, particles.end());
+    }
+  }
+
+  // Only where the lattice is as it was filled.
+  void pack(int r, std::vector<Particle>& particles) const {
+    const bool displaces = std::any_of(scene_.body().begin(), scene_.body().end(),
+                                       [](const Body& body) { return body.displaces_fluid(); });
+    if (!displaces || scene_.fluid(r).has_displacement()) return;
+    std::vector<Eigen::Vector3d> positions;
+    for (const Particle& p : particles) positions.push_back(p.position);
+    const std::vector<Eigen::Vector3d> way =
+        packing(scene_, regions_[static_cast<std::size_t>(r)], positions);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      particles[i].position += way[i];
+      particles[i].origin += way[i];
     }
   }
 

@@ -91,6 +91,11 @@ int serve(const Arguments& arguments) {
   spdlog::info("{}: {} fluid and {} boundary particles, {} steps, {} threads; listening on {}",
                simulation.scene.name(), simulation.fluid_particles, simulation.boundary_particles(),
                simulation.clock.steps(), simulation.threads, sockets.endpoint.exchange);
+  if (simulation.is_iterated())
+    spdlog::info("exchanges with the bodies are iterated, {} step(s) each",
+                 simulation.coupling.coupling.steps_per_exchange());
+  for (const std::string& line : server::stability_warnings(simulation.scene, simulation.coupling))
+    spdlog::warn("{}", line);
   const server::Outcome outcome = server::run(simulation, sockets, to_options(arguments));
   spdlog::info("status: {}", server::to_string(outcome));
   return server::exit_code(outcome.reason);

@@ -11,23 +11,36 @@ namespace {
 // Steps between looks at every particle: a copy of the state costs about a hundredth of a step.
 constexpr std::uint64_t kGuardEvery = 8;
 
-void advance(Simulation& simulation, Coupling& coupling) {
+// The steps from `first` to the next time the rigid process is heard, which is returned; again and again
+// where that asks for it.
+std::uint64_t exchange(Simulation& simulation, Coupling& coupling, const Guard& guard, std::uint64_t first) {
   const protocol::StepClock& clock = simulation.clock;
   fluid::Solver& solver = *simulation.solver;
+  if (simulation.is_iterated()) solver.save();
+  while (true) {
+    const std::uint64_t last = coupling.exchange_end(first);
+    for (std::uint64_t step = first; step <= last; ++step) {
+      solver.step(protocol::seconds(clock.duration(step)), coupling.kinematics(step));
+      const double time = protocol::seconds(clock.time(step));
+      guard.check(solver.wrenches(), time);
+      if (step % kGuardEvery == 0 || clock.is_output(step)) guard.check(solver.snapshot(), time);
+      coupling.answer(step);
+    }
+    if (!coupling.repeats()) return last;
+    solver.restore();
+  }
+}
+
+void advance(Simulation& simulation, Coupling& coupling) {
+  const protocol::StepClock& clock = simulation.clock;
   const Guard guard(simulation.scene);
 
   coupling.output(0);
-  for (std::uint64_t step = 1; step <= clock.steps(); ++step) {
-    const std::span<const fluid::Kinematics> bodies = coupling.kinematics(step);
-    solver.step(protocol::seconds(clock.duration(step)), bodies);
-
-    const double time = protocol::seconds(clock.time(step));
-    guard.check(solver.wrenches(), time);
-    if (step % kGuardEvery == 0 || clock.is_output(step)) guard.check(solver.snapshot(), time);
-
-    coupling.answer(step);
-    if (clock.is_output(step)) coupling.output(step);
+  for (std::uint64_t first = 1; first <= clock.steps();) {
+    const std::uint64_t last = exchange(simulation, coupling, guard, first);
+    if (clock.is_output(last)) coupling.output(last);
     coupling.poll();
+    first = last + 1;
   }
 }
 

@@ -54,6 +54,7 @@ fluid::Setup to_setup(const Scene& scene, int threads) {
   setup.formulation = to_formulation(scene.formulation());
   setup.fluid = fill_liquid(scene);
   setup.threads = threads;
+  setup.limit_step_by_bodies = scene.coupling().shorten_steps();
 
   const double support = 2 * setup.formulation.smoothing * setup.spacing;  // of the kernel, 2 h
   const fluid::Tank tank = to_tank(scene.domain());
@@ -72,6 +73,10 @@ bool Simulation::has_free_body() const {
   return protocol::is_any_body_ever_free(scene);
 }
 
+bool Simulation::is_iterated() const {
+  return has_free_body() && coupling.coupling.scheme() == IMPLICIT;
+}
+
 std::size_t Simulation::boundary_particles() const {
   std::size_t count = walls.position.size();
   for (const fluid::Boundary& boundary : boundaries) count += boundary.position.size();
@@ -85,7 +90,10 @@ Simulation make_simulation(const Scene& given, int threads, const SolverFactory&
   std::vector<fluid::Kinematics> bodies;
   for (const Body& body : scene.body()) bodies.push_back(initial_kinematics(body, setup.dimension));
   std::unique_ptr<fluid::Solver> solver = factory(setup);
-  const protocol::StepClock clock = make_clock(scene, solver->largest_step(scene.liquid().max_speed()));
+  const protocol::StepClock clock = make_clock(
+      scene, std::min(solver->largest_step(scene.liquid().max_speed()), largest_exchange_step(scene, setup)));
+  CouplingPlan coupling = plan_coupling(
+      scene, setup, protocol::seconds(clock.interval()) / static_cast<double>(clock.steps_per_interval()));
   solver->start(bodies);
   const std::span<const fluid::Wrench> wrenches = solver->wrenches();
 
@@ -94,6 +102,7 @@ Simulation make_simulation(const Scene& given, int threads, const SolverFactory&
           .initial_wrenches = {wrenches.begin(), wrenches.end()},
           .solver = std::move(solver),
           .clock = clock,
+          .coupling = std::move(coupling),
           .walls = std::move(setup.walls),
           .boundaries = std::move(setup.bodies),
           .fluid_particles = setup.fluid.position.size(),

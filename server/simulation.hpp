@@ -6,6 +6,7 @@
 #include "fluid/solver.hpp"
 #include "protocol/sim_time.hpp"
 #include "scene.pb.h"
+#include "server/stability.hpp"
 
 namespace sluice::server {
 
@@ -19,6 +20,7 @@ struct Simulation {
   std::vector<fluid::Wrench> initial_wrenches;
   std::unique_ptr<fluid::Solver> solver;
   protocol::StepClock clock;
+  CouplingPlan coupling;
   // What watchers and the recorder are told of the setup.
   fluid::Boundary walls;
   std::vector<fluid::Boundary> boundaries;
@@ -28,6 +30,8 @@ struct Simulation {
 
   // Whether a body moves by the fluid's forces, so that the rigid process needs every answer.
   [[nodiscard]] bool has_free_body() const;
+  // Whether exchanges with them are repeated until they agree.
+  [[nodiscard]] bool is_iterated() const;
   [[nodiscard]] std::size_t boundary_particles() const;
 };
 

@@ -65,8 +65,8 @@ void Connection::send(Message message) {
   message.header.set_protocol_version(protocol::kProtocolVersion);
   message.header.set_run_id(run_id_);
   message.header.set_session_token(token_);
-  // Who says Hello and Heartbeat takes no part in a numbered exchange.
-  if (!message.header.has_hello() && !message.header.has_heartbeat())
+  // Hello, Heartbeat and Accepted take no part in a numbered exchange.
+  if (!message.header.has_hello() && !message.header.has_heartbeat() && !message.header.has_accepted())
     message.header.set_sequence(++sequence_);
   if (!protocol::send(socket_, message))
     throw PeerLost(fmt::format("the server at {} no longer takes messages", endpoint_));

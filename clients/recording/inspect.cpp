@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "clients/recording/ledger.hpp"
+
 namespace sluice::clients {
 namespace {
 
@@ -95,6 +97,29 @@ Json probes(const Reader& recording) {
   return list;
 }
 
+Json vector(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+Json ledger_json(const std::vector<BodyLedger>& bodies) {
+  Json list = Json::array();
+  for (const BodyLedger& body : bodies) {
+    Json entry = {{"body", body.name}, {"time", body.time}};
+    for (const auto& [name, part] : body.impulses)
+      entry["impulse"][name] = {{"force", vector(part.force)}, {"moment", vector(part.moment)}};
+    entry["work_of_liquid"] = body.work_of_liquid;
+    if (body.is_free) {
+      entry["momentum_change"] = vector(body.momentum_change);
+      entry["third_law_residual"] = body.third_law_residual;
+      entry["energy_created"] = body.energy_created;
+      entry["iterations"] = {{"mean", body.mean_iterations}, {"most", body.most_iterations}};
+      entry["largest_residual"] = body.largest_residual;
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 std::string vector_text(const Json& v) {
   return fmt::format("({:.5g}, {:.5g}, {:.5g})", v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
 }
@@ -141,6 +166,8 @@ Json describe(const Reader& recording) {
     result["last"] = energy(recording, frames - 1);
     result["probes"] = probes(recording);
   }
+  if (recording.exchanges() > 0 && recording.frames() > 0 && recording.scene().body_size() > 0)
+    result["ledger"] = ledger_json(read_ledgers(recording));
   return result;
 }
 
@@ -204,6 +231,8 @@ std::string inspect(const Reader& recording) {
     for (const auto& probe : all["probes"])
       result += line("probe", fmt::format("{}: {}", probe["name"].get<std::string>(), probe_text(probe)));
   }
+  if (recording.exchanges() > 0 && recording.frames() > 0 && recording.scene().body_size() > 0)
+    for (const BodyLedger& body : read_ledgers(recording)) result += to_text(body);
   result += line("ended", ending_line(recording));
   result += line("run", fmt::format("{}, {:.1f} s wall clock", recording.run_id(), recording.wall_seconds()));
   result += line("build", fmt::format("sluice {}, {}, {}, {} threads", welcome.build().version(),

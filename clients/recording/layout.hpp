@@ -51,7 +51,10 @@ inline std::vector<Field> frame_fields(hsize_t particles, hsize_t bodies, hsize_
 // Arrays of an ExchangeLog, a row a step, all float64.
 inline std::vector<Field> exchange_fields(hsize_t bodies) {
   return {{"kinematics", "/exchange/kinematics", {bodies, 19}, ""},
-          {"wrenches", "/exchange/wrenches", {bodies, 6}, ""}};
+          {"wrenches", "/exchange/wrenches", {bodies, 6}, ""},
+          {"coupling", "/exchange/coupling", {bodies > 0 ? hsize_t{2} : hsize_t{0}}, ""},
+          {"wrench_parts", "/exchange/wrench_parts", {bodies, 12}, ""},
+          {"ledger", "/exchange/ledger", {bodies, 15}, ""}};
 }
 
 // A field of Energy; the dataset is /observables/energy/<name>/value.

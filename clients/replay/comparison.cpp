@@ -53,6 +53,16 @@ std::string element(const Message& message, const Array& array, std::size_t k, c
   const auto bodies = static_cast<std::size_t>(scene.body_size());
   const std::size_t row = k / width;
   const std::string& body = scene.body(static_cast<int>(row % bodies)).name();
+  if (array.name() == "coupling")
+    return fmt::format("{} of the exchange of step {}", k % 2 == 0 ? "iterations" : "residual",
+                       message.header.exchange_log().first_step() + k / 2);
+  if (array.name() == "wrench_parts")
+    return fmt::format("{} {} of body {} at step {}", k % width < 6 ? "viscous" : "penetration",
+                       kWrench[k % 6], scene.body(static_cast<int>(row % bodies)).name(),
+                       message.header.exchange_log().first_step() + row / bodies);
+  if (array.name() == "ledger")
+    return fmt::format("ledger of body {} at step {}", scene.body(static_cast<int>(row % bodies)).name(),
+                       message.header.exchange_log().first_step() + row / bodies);
   const char* name = width == kWrench.size() ? kWrench[k % width] : kKinematics.at(k % width);
   if (!message.header.has_exchange_log()) return fmt::format("{} of body {}", name, body);
   return fmt::format("{} of body {} at step {}", name, body,

@@ -15,6 +15,7 @@
 #include "clients/sluice/siblings.hpp"
 #include "protocol/body_kind.hpp"
 #include "protocol/framing.hpp"
+#include "protocol/sim_time.hpp"
 
 namespace sluice::clients {
 namespace {
@@ -41,20 +42,53 @@ class RecordedRigid {
   RecordedRigid(const Reader& recording, Connection& connection)
       : recording_(recording),
         connection_(connection),
-        batch_(protocol::is_any_body_ever_free(recording.scene()) ? 1 : kSteps),
-        ahead_(protocol::is_any_body_ever_free(recording.scene()) ? 1 : kMostUnanswered) {}
+        lock_step_(protocol::is_any_body_ever_free(recording.scene())),
+        is_iterated_(recording.welcome().coupling().scheme() == IMPLICIT),
+        clock_(recording.welcome().interval_ns(), recording.welcome().steps_per_interval(),
+               recording.welcome().steps()),
+        ahead_(lock_step_ ? 1 : kMostUnanswered) {}
 
   [[nodiscard]] bool all_answered() const { return sent_ == recording_.exchanges() && unanswered_ == 0; }
 
   void turn() {
     while (auto message = connection_.receive())
-      if (message->header.has_wrenches()) --unanswered_;
+      if (message->header.has_wrenches()) take_answer();
     while (connection_.welcomed() && unanswered_ < ahead_ && sent_ < recording_.exchanges()) send_next();
   }
 
  private:
+  [[nodiscard]] std::uint64_t batch_steps() const {
+    if (!lock_step_) return kSteps;
+    const std::uint64_t most =
+        std::max<std::uint64_t>(1, recording_.welcome().coupling().steps_per_exchange());
+    return clock_.exchange_end(sent_ + 1, most) - sent_;
+  }
+
+  static void add_ledger(Message& message, const Message& log) {
+    const std::vector<std::uint64_t> shape = log.shape("ledger");
+    message.add_array<double>("ledger", log.array<double>("ledger").first(shape[1] * shape[2]),
+                              {shape[1], shape[2]});
+  }
+
+  // The motion recorded is that of the last iteration.
+  void take_answer() {
+    --unanswered_;
+    if (!is_iterated_) return;
+    const auto coupling = recording_.exchange_log(sent_, 1).array<double>("coupling");
+    Message message;
+    message.header.set_step(sent_);
+    Accepted& accepted = *message.header.mutable_accepted();
+    accepted.set_first_step(sent_ - last_count_ + 1);
+    accepted.set_count(last_count_);
+    accepted.set_iterations(static_cast<std::uint32_t>(coupling[0]));
+    accepted.set_residual(coupling[1]);
+    connection_.send(std::move(message));
+  }
+
   void send_next() {
-    const auto count = static_cast<std::uint32_t>(std::min(batch_, recording_.exchanges() - sent_));
+    // Cut where the recording ends.
+    const std::uint64_t left = recording_.exchanges() - sent_;
+    const auto count = static_cast<std::uint32_t>(std::min(batch_steps(), left));
     const Message log = recording_.exchange_log(sent_ + 1, count);
     Message message;
     message.header.set_step(log.header.step());
@@ -62,14 +96,18 @@ class RecordedRigid {
     message.header.mutable_kinematics()->set_first_step(sent_ + 1);
     message.header.mutable_kinematics()->set_count(count);
     message.add_array<double>("kinematics", log.array<double>("kinematics"), log.shape("kinematics"));
+    if (lock_step_) add_ledger(message, log);
     connection_.send(std::move(message));
     sent_ += count;
+    last_count_ = count;
     ++unanswered_;
   }
 
   const Reader& recording_;
   Connection& connection_;
-  std::uint64_t batch_;
+  bool lock_step_, is_iterated_;
+  protocol::StepClock clock_;
+  std::uint32_t last_count_ = 0;
   std::size_t ahead_;
   std::uint64_t sent_ = 0;
   std::size_t unanswered_ = 0;

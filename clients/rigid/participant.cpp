@@ -8,6 +8,7 @@
 
 #include "clients/rigid/convert.hpp"
 #include "clients/rigid/participant_link.hpp"
+#include "clients/rigid/window.hpp"
 #include "protocol/scene_check.hpp"
 #include "protocol/sim_time.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::size_t kRow = 19;        // doubles of a body's kinematics
 constexpr std::size_t kWrenchRow = 6;   // doubles of a body's wrench
+constexpr std::size_t kLedgerRow = 15;  // doubles of a body's ledger
 constexpr std::uint32_t kBatch = 64;    // steps of a message when streaming
 constexpr std::size_t kUnanswered = 2;  // batches on their way when streaming
 
@@ -32,21 +34,23 @@ void append(std::vector<double>& rows, const rigid::Kinematics& k) {
   vector(k.angular_acceleration);
 }
 
-// The last step's wrenches of an array [count, bodies, 6], or [bodies, 6] when count is 1.
-Wrenches last_wrenches(const protocol::Message& message, std::size_t count, std::size_t bodies) {
+// Of every step, from an array [count, bodies, 6], or [bodies, 6] when count is 1.
+std::vector<Wrenches> read_wrenches(const protocol::Message& message, std::size_t count, std::size_t bodies) {
   const auto values = message.array<double>("wrenches");
   if (values.size() != count * bodies * kWrenchRow)
     throw protocol::ProtocolError(
         fmt::format("wrenches of {} values for {} steps of {} bodies, {} are needed", values.size(), count,
                     bodies, count * bodies * kWrenchRow));
-  Wrenches wrenches(bodies);
-  const double* row = values.data() + (count - 1) * bodies * kWrenchRow;
-  for (rigid::Wrench& wrench : wrenches) {
-    wrench.force = Eigen::Map<const Eigen::Vector3d>(row);
-    wrench.moment = Eigen::Map<const Eigen::Vector3d>(row + 3);
-    row += kWrenchRow;
+  std::vector<Wrenches> steps(count, Wrenches(bodies));
+  const double* row = values.data();
+  for (Wrenches& wrenches : steps) {
+    for (rigid::Wrench& wrench : wrenches) {
+      wrench.force = Eigen::Map<const Eigen::Vector3d>(row);
+      wrench.moment = Eigen::Map<const Eigen::Vector3d>(row + 3);
+      row += kWrenchRow;
+    }
   }
-  return wrenches;
+  return steps;
 }
 
 rigid::World make_world(const Scene& scene) {
@@ -57,21 +61,32 @@ rigid::World make_world(const Scene& scene) {
   }
 }
 
+Eigen::Vector3d gravity_of(const Scene& scene) {
+  return to_vector(protocol::with_defaults(scene).gravity());
+}
+
+std::vector<double> indicators(const Welcome& welcome) {
+  std::vector<double> values;
+  for (const BodyStability& body : welcome.stability()) values.push_back(body.indicator());
+  return values;
+}
+
 class Participant {
  public:
   Participant(ParticipantLink& link, const protocol::Message& welcome)
       : link_(link),
         world_(make_world(welcome.header.welcome().scene())),
         clock_(welcome.header.welcome().interval_ns(), welcome.header.welcome().steps_per_interval(),
-               welcome.header.welcome().steps()) {
-    world_.start(last_wrenches(welcome, 1, world_.size()));
-  }
+               welcome.header.welcome().steps()),
+        coupling_(welcome.header.welcome().coupling()),
+        window_(world_, coupling_, gravity_of(welcome.header.welcome().scene()),
+                indicators(welcome.header.welcome()), read_wrenches(welcome, 1, world_.size()).front()) {}
 
   End run() {
     spdlog::info("{} {}, {} steps, {}", world_.size(), world_.size() == 1 ? "body" : "bodies", clock_.steps(),
-                 world_.has_free_bodies() ? "one exchange a step" : "all prescribed, streamed ahead");
+                 exchange_text());
     if (world_.has_free_bodies())
-      exchange_step_by_step();
+      exchange();
     else
       stream();
     while (!end_) (void)next_answer();
@@ -84,39 +99,107 @@ class Participant {
     std::uint32_t count;
   };
 
-  void exchange_step_by_step() {
-    for (std::uint64_t step = 1; step <= clock_.steps(); ++step) {
-      send({step, 1});
-      const auto answer = next_answer();
-      if (!answer) return;
-      world_.correct(duration(step), last_wrenches(*answer, 1, world_.size()));
+  [[nodiscard]] std::string exchange_text() const {
+    if (!world_.has_free_bodies()) return "all prescribed, streamed ahead";
+    return fmt::format("exchanges of {} step(s), {}", most_steps(),
+                       is_iterated() ? "each repeated until motion and force agree" : "each once");
+  }
+
+  [[nodiscard]] bool is_iterated() const { return coupling_.scheme() == IMPLICIT; }
+  // Of a server that says nothing, one.
+  [[nodiscard]] std::uint64_t most_steps() const {
+    return std::max<std::uint64_t>(1, coupling_.steps_per_exchange());
+  }
+
+  void exchange() {
+    for (std::uint64_t first = 1; first <= clock_.steps();) {
+      const std::uint64_t last = clock_.exchange_end(first, most_steps());
+      if (!exchange({first, static_cast<std::uint32_t>(last - first + 1)})) break;
+      first = last + 1;
     }
+    if (is_iterated() && exchanges_ > 0)
+      spdlog::info("{:.2f} iterations an exchange, {} given up, largest residual {:.2g}",
+                   static_cast<double>(iterations_) / static_cast<double>(exchanges_), given_up_,
+                   largest_residual_);
+  }
+
+  // False once the run has ended.
+  bool exchange(const Batch& batch) {
+    std::vector<Window::Step> steps;
+    for (std::uint64_t step = batch.first_step; step < batch.first_step + batch.count; ++step)
+      steps.push_back({protocol::seconds(clock_.time(step)), duration(step)});
+    window_.begin(std::move(steps));
+    note_ledger();
+    while (true) {
+      std::vector<double> rows;
+      for (const Window::Motion& motion : window_.predict())
+        for (const rigid::Kinematics& body : motion) append(rows, body);
+      send(batch, rows, static_cast<std::uint32_t>(window_.iterations() - 1));
+      const auto answer = next_answer();
+      if (!answer) return false;
+      if (window_.accept(read_wrenches(*answer, batch.count, world_.size()))) break;
+    }
+    if (is_iterated()) say_accepted(batch);
+    return true;
+  }
+
+  void note_ledger() {
+    ledger_.clear();
+    for (std::size_t b = 0; b < world_.size(); ++b) {
+      const rigid::Account account = world_.is_free(b) ? world_.account(b) : rigid::Account{};
+      for (const rigid::Wrench& pair : {account.momentum, account.constraint_impulse}) {
+        ledger_.insert(ledger_.end(), pair.force.begin(), pair.force.end());
+        ledger_.insert(ledger_.end(), pair.moment.begin(), pair.moment.end());
+      }
+      ledger_.insert(ledger_.end(), {account.constraint_work, account.kinetic_energy, account.mass});
+    }
+  }
+
+  void say_accepted(const Batch& batch) {
+    ++exchanges_;
+    iterations_ += static_cast<std::uint64_t>(window_.iterations());
+    if (window_.residual() > coupling_.tolerance()) ++given_up_;
+    largest_residual_ = std::max(largest_residual_, window_.residual());
+    protocol::Message message;
+    message.header.set_step(batch.first_step + batch.count - 1);
+    Accepted& accepted = *message.header.mutable_accepted();
+    accepted.set_first_step(batch.first_step);
+    accepted.set_count(batch.count);
+    accepted.set_iterations(static_cast<std::uint32_t>(window_.iterations()));
+    accepted.set_residual(window_.residual());
+    link_.send(std::move(message));
   }
 
   void stream() {
     for (std::uint64_t first = 1; first <= clock_.steps() && !end_; first += kBatch) {
-      send({first, static_cast<std::uint32_t>(std::min<std::uint64_t>(kBatch, clock_.steps() - first + 1))});
+      stream(
+          {first, static_cast<std::uint32_t>(std::min<std::uint64_t>(kBatch, clock_.steps() - first + 1))});
       while (unanswered_.size() >= kUnanswered && next_answer()) {
       }
     }
   }
 
-  void send(const Batch& batch) {
+  void stream(const Batch& batch) {
     std::vector<double> rows;
     rows.reserve(batch.count * world_.size() * kRow);
-    const std::uint64_t last = batch.first_step + batch.count - 1;
-    for (std::uint64_t step = batch.first_step; step <= last; ++step)
+    for (std::uint64_t step = batch.first_step; step < batch.first_step + batch.count; ++step)
       for (const rigid::Kinematics& body :
            world_.predict(protocol::seconds(clock_.time(step)), duration(step)))
         append(rows, body);
+    send(batch, rows, 0);
+  }
 
+  void send(const Batch& batch, const std::vector<double>& rows, std::uint32_t iteration) {
+    const std::uint64_t last = batch.first_step + batch.count - 1;
     protocol::Message message;
     message.header.set_sequence(++sequence_);
     message.header.set_step(last);
     message.header.set_time_ns(clock_.time(last));
     message.header.mutable_kinematics()->set_first_step(batch.first_step);
     message.header.mutable_kinematics()->set_count(batch.count);
+    message.header.mutable_kinematics()->set_iteration(iteration);
     message.add_array<double>("kinematics", rows, {batch.count, world_.size(), kRow});
+    if (world_.has_free_bodies()) message.add_array<double>("ledger", ledger_, {world_.size(), kLedgerRow});
     link_.send(std::move(message));
     unanswered_.push_back(batch);
   }
@@ -151,6 +234,11 @@ class Participant {
   ParticipantLink& link_;
   rigid::World world_;
   protocol::StepClock clock_;
+  Coupling coupling_;
+  Window window_;
+  std::vector<double> ledger_;  // at the beginning of the exchange
+  std::uint64_t exchanges_ = 0, iterations_ = 0, given_up_ = 0;
+  double largest_residual_ = 0;
   std::uint64_t sequence_ = 0;
   std::deque<Batch> unanswered_;
   std::optional<End> end_;

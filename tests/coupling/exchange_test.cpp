@@ -207,5 +207,55 @@ TEST_F(ExchangeTest, AnInterruptEndsTheRunInGoodOrder) {
   EXPECT_EQ(server_->outcome().reason, End::INTERRUPTED);
 }
 
+// An iterated exchange goes back to the state before it; what is logged is the last iteration, with what the
+// rigid process says of it.
+TEST_F(ExchangeTest, RepeatsAnExchangeFromTheStateBeforeIt) {
+  Scene scene = ball();
+  scene.mutable_coupling()->set_scheme(IMPLICIT);
+  scene.mutable_coupling()->set_steps_per_exchange(4);
+  TestServer server(scene, with_recorder());
+  TestRecorder recorder(server.endpoint());
+  Peer rigid(server.endpoint());
+  const Message welcome = rigid.hello(RIGID);
+  EXPECT_EQ(welcome.header.welcome().coupling().scheme(), IMPLICIT);
+  EXPECT_EQ(welcome.header.welcome().stability_size(), 1);
+  std::uint64_t sequence = 0;
+  // Ten steps to an output: exchanges of 4, 4 and 2 steps.
+  for (std::uint64_t first = 1; first <= server.steps();) {
+    const std::uint32_t count = (first - 1) % 10 == 8 ? 2 : 4;
+    for (std::uint32_t iteration = 0; iteration < 3; ++iteration) {
+      Message steps = kinematics(++sequence, first, count);
+      steps.header.mutable_kinematics()->set_iteration(iteration);
+      rigid.send(steps);
+      const Message answer = rigid.receive();
+      ASSERT_TRUE(answer.header.has_wrenches()) << answer.header.refusal().reason();
+      EXPECT_EQ(answer.array<double>("wrenches")[0], static_cast<double>(first));
+    }
+    Message accepted;
+    accepted.header.mutable_accepted()->set_first_step(first);
+    accepted.header.mutable_accepted()->set_count(count);
+    accepted.header.mutable_accepted()->set_iterations(3);
+    accepted.header.mutable_accepted()->set_residual(0.5);
+    rigid.send(accepted);
+    first += count;
+  }
+  std::uint64_t logged = 0;
+  while (const auto message = recorder.pull()) {
+    recorder.acknowledge(message->header.sequence());
+    if (message->header.has_end()) break;
+    if (!message->header.has_exchange_log()) continue;
+    const auto wrenches = message->array<double>("wrenches");
+    const auto coupling = message->array<double>("coupling");
+    for (std::uint64_t k = 0; k < message->header.exchange_log().count(); ++k) {
+      EXPECT_EQ(wrenches[6 * k], static_cast<double>(++logged));
+      EXPECT_EQ(coupling[2 * k], 3);
+      EXPECT_EQ(coupling[2 * k + 1], 0.5);
+    }
+  }
+  EXPECT_EQ(logged, server.steps());
+  EXPECT_EQ(server.outcome().reason, End::FINISHED);
+  EXPECT_EQ(server.script.stepped.size(), 3 * server.steps());
+}
+
 }  // namespace
 }  // namespace sluice::testing

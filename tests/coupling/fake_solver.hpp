@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "fluid/solver.hpp"
@@ -46,7 +47,16 @@ class FakeSolver : public fluid::Solver {
     push();
   }
 
+  void save() override { saved_ = {steps_, state_, wrenches_}; }
+  void restore() override { std::tie(steps_, state_, wrenches_) = saved_; }
+
   [[nodiscard]] std::span<const fluid::Wrench> wrenches() const override { return wrenches_; }
+  [[nodiscard]] std::vector<fluid::WrenchParts> wrench_parts() const override {
+    std::vector<fluid::WrenchParts> parts;
+    for (const fluid::Wrench& wrench : wrenches_)
+      parts.push_back({.pressure = wrench, .viscous = {}, .guard = {}});
+    return parts;
+  }
   [[nodiscard]] fluid::Wrench wall_wrench() const override { return {}; }
   [[nodiscard]] double largest_step(double) const override { return script_.largest_step; }
   [[nodiscard]] fluid::Snapshot snapshot() const override { return state_; }
@@ -70,6 +80,7 @@ class FakeSolver : public fluid::Solver {
   std::uint64_t steps_ = 0;
   fluid::Snapshot state_;
   std::vector<fluid::Wrench> wrenches_;
+  std::tuple<std::uint64_t, fluid::Snapshot, std::vector<fluid::Wrench>> saved_;
 };
 
 }  // namespace sluice::testing

@@ -118,6 +118,10 @@ Message FakeRun::exchange_log(std::uint64_t index) const {
   message.header.mutable_exchange_log()->set_count(static_cast<std::uint32_t>(steps_per_frame));
   add(message, "kinematics", noise(steps_per_frame * m * 19, 1000 + index), {steps_per_frame, m, 19});
   add(message, "wrenches", noise(steps_per_frame * m * 6, 2000 + index), {steps_per_frame, m, 6});
+  const std::uint64_t columns = m > 0 ? 2 : 0;
+  add(message, "coupling", noise(steps_per_frame * columns, 3000 + index), {steps_per_frame, columns});
+  add(message, "wrench_parts", noise(steps_per_frame * m * 12, 4000 + index), {steps_per_frame, m, 12});
+  add(message, "ledger", noise(steps_per_frame * m * 15, 5000 + index), {steps_per_frame, m, 15});
   return message;
 }
 

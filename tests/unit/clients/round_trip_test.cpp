@@ -184,6 +184,8 @@ TEST_F(Structure, HoldsBoundariesExchangesAndParameters) {
   EXPECT_EQ(shape("/particles/boundary/body"), Extents{1});
   EXPECT_EQ(shape("/exchange/kinematics"), (Extents{60, 1, 19}));
   EXPECT_EQ(shape("/exchange/wrenches"), (Extents{60, 1, 6}));
+  EXPECT_EQ(shape("/exchange/coupling"), (Extents{60, 2}));
+  EXPECT_EQ(shape("/exchange/wrench_parts"), (Extents{60, 1, 12}));
   EXPECT_EQ(shape("/exchange/step"), Extents{60});
   EXPECT_EQ(shape("/exchange/time_ns"), Extents{60});
   EXPECT_EQ(shape("/frames/hash"), Extents{21});

@@ -42,6 +42,7 @@ class Splash {
   }
 
   [[nodiscard]] const Solver& solver() const { return *solver_; }
+  [[nodiscard]] Solver& solver() { return *solver_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] double dt() const { return dt_; }
   [[nodiscard]] std::span<const Kinematics> bodies() {

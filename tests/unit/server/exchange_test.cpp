@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numeric>
 
 #include "server/stop.hpp"
@@ -34,7 +35,7 @@ std::optional<Message> answer(server::Exchange& exchange, std::uint64_t step) {
 }
 
 TEST(Exchange, AnswersABatchWhenItsLastStepIsDone) {
-  server::Exchange exchange(1, 10, false);
+  server::Exchange exchange(1, 10, {.lock_step = false});
   EXPECT_FALSE(exchange.has(1));
   exchange.accept(kinematics(1, 1, 3));
   ASSERT_TRUE(exchange.has(1));
@@ -51,7 +52,7 @@ TEST(Exchange, AnswersABatchWhenItsLastStepIsDone) {
 }
 
 TEST(Exchange, HoldsTwoBatchesAndRefusesTheThird) {
-  server::Exchange exchange(1, 100, false);
+  server::Exchange exchange(1, 100, {.lock_step = false});
   exchange.accept(kinematics(1, 1, 2));
   exchange.accept(kinematics(2, 3, 2));
   EXPECT_THROW(exchange.accept(kinematics(3, 5, 2)), server::Refused);
@@ -62,7 +63,7 @@ TEST(Exchange, HoldsTwoBatchesAndRefusesTheThird) {
 }
 
 TEST(Exchange, KeepsTheLastRepliesAndRefusesOlderOnes) {
-  server::Exchange exchange(1, 100, false);
+  server::Exchange exchange(1, 100, {.lock_step = false});
   for (std::uint64_t n = 1; n <= 3; ++n) {
     exchange.accept(kinematics(n, n, 1));
     answer(exchange, n);
@@ -73,7 +74,7 @@ TEST(Exchange, KeepsTheLastRepliesAndRefusesOlderOnes) {
 }
 
 TEST(Exchange, ARepeatedMessageThatWaitsForItsAnswerChangesNothing) {
-  server::Exchange exchange(1, 100, false);
+  server::Exchange exchange(1, 100, {.lock_step = false});
   exchange.accept(kinematics(1, 1, 1));
   EXPECT_FALSE(exchange.accept(kinematics(1, 1, 1)));
   EXPECT_TRUE(answer(exchange, 1));
@@ -81,7 +82,7 @@ TEST(Exchange, ARepeatedMessageThatWaitsForItsAnswerChangesNothing) {
 }
 
 TEST(Exchange, CapsTheStepsOfAMessage) {
-  server::Exchange exchange(1, 1000, false);
+  server::Exchange exchange(1, 1000, {.lock_step = false});
   EXPECT_THROW(exchange.accept(kinematics(1, 1, 257)), server::Refused);
   EXPECT_FALSE(exchange.accept(kinematics(1, 1, 256)));
 }
@@ -101,6 +102,68 @@ TEST(ExitCodes, FollowTheReason) {
                                    End::INTERRUPTED, End::PROTOCOL_ERROR, End::UNKNOWN}) {
     EXPECT_EQ(server::exit_code(reason), 2);
   }
+}
+
+Message iteration(std::uint64_t sequence, std::uint64_t first, std::uint32_t count, std::uint32_t iteration) {
+  Message message = kinematics(sequence, first, count);
+  message.header.mutable_kinematics()->set_iteration(iteration);
+  return message;
+}
+
+Accepted accepted(std::uint64_t first, std::uint32_t count) {
+  Accepted content;
+  content.set_first_step(first);
+  content.set_count(count);
+  content.set_iterations(2);
+  content.set_residual(0.25);
+  return content;
+}
+
+TEST(Exchange, TakesSeveralStepsInLockStepUpToAnOutput) {
+  server::Exchange exchange(1, 100, {.lock_step = true, .steps_per_exchange = 4, .steps_per_output = 10});
+  EXPECT_THROW(exchange.accept(kinematics(1, 1, 5)), server::Refused);
+  std::uint64_t sequence = 0;
+  for (const std::uint64_t first : {1, 5}) {
+    exchange.accept(kinematics(++sequence, first, 4));
+    EXPECT_EQ(exchange.last_step(), first + 3);
+    for (std::uint64_t step = first; step < first + 4; ++step) answer(exchange, step);
+  }
+  EXPECT_THROW(exchange.accept(kinematics(3, 9, 4)), server::Refused);
+  EXPECT_NO_THROW(exchange.accept(kinematics(3, 9, 2)));
+}
+
+TEST(Exchange, RepeatsAnExchangeUntilItIsAccepted) {
+  server::Exchange exchange(1, 100, {.lock_step = true, .steps_per_output = 10, .is_iterated = true});
+  exchange.accept(kinematics(1, 1, 1));
+  answer(exchange, 1);
+  EXPECT_FALSE(exchange.is_decided());
+  exchange.accept(iteration(2, 1, 1, 1));
+  EXPECT_TRUE(exchange.is_decided());
+  EXPECT_TRUE(exchange.is_repeated());
+  ASSERT_TRUE(exchange.has(1));
+  answer(exchange, 1);
+  EXPECT_FALSE(exchange.is_decided());
+  exchange.accept_exchange(accepted(1, 1));
+  EXPECT_TRUE(exchange.is_decided());
+  EXPECT_FALSE(exchange.is_repeated());
+  EXPECT_EQ(exchange.accepted().residual(), 0.25);
+  EXPECT_NO_THROW(exchange.accept(kinematics(3, 2, 1)));
+}
+
+TEST(Exchange, RefusesWhatIsNotThatExchange) {
+  server::Exchange exchange(1, 100, {.lock_step = true, .steps_per_output = 10, .is_iterated = true});
+  EXPECT_THROW(exchange.accept(iteration(1, 1, 1, 1)), server::Refused) << "nothing to repeat";
+  EXPECT_THROW(exchange.accept_exchange(accepted(1, 1)), server::Refused) << "nothing to accept";
+  exchange.accept(kinematics(1, 1, 1));
+  answer(exchange, 1);
+  EXPECT_THROW(exchange.accept(kinematics(2, 2, 1)), server::Refused) << "not accepted yet";
+  EXPECT_THROW(exchange.accept(iteration(2, 1, 1, 2)), server::Refused) << "an iteration left out";
+  EXPECT_THROW(exchange.accept(iteration(2, 2, 1, 1)), server::Refused) << "other steps";
+  EXPECT_THROW(exchange.accept_exchange(accepted(2, 1)), server::Refused);
+  Accepted not_finite = accepted(1, 1);
+  not_finite.set_residual(std::numeric_limits<double>::infinity());
+  EXPECT_THROW(exchange.accept_exchange(not_finite), server::Refused);
+  EXPECT_NO_THROW(exchange.accept_exchange(accepted(1, 1)));
 }
 
 }  // namespace

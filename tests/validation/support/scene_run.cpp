@@ -47,7 +47,12 @@ SceneRun::SceneRun(const Scene& scene, int threads, Walls walls)
     : simulation_(simulate(scene, threads, walls)), masses_(initial_masses(simulation_)) {
   if (simulation_.bodies.empty()) return;
   world_ = std::make_unique<rigid::World>(clients::to_world(simulation_.scene));
-  world_->start(to_rigid(simulation_.initial_wrenches));
+  if (!world_->has_free_bodies()) return;
+  std::vector<double> indicators;
+  for (const BodyStability& body : simulation_.coupling.stability) indicators.push_back(body.indicator());
+  window_ = std::make_unique<clients::Window>(*world_, simulation_.coupling.coupling,
+                                              clients::to_vector(simulation_.scene.gravity()), indicators,
+                                              to_rigid(simulation_.initial_wrenches));
 }
 
 bool SceneRun::next_output() {
@@ -58,22 +63,63 @@ bool SceneRun::next_output() {
 
 bool SceneRun::next_step() {
   if (step_ >= simulation_.clock.steps()) return false;
+  const std::uint64_t before = step_;
   const auto start = std::chrono::steady_clock::now();
   advance();
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (step_ % kGuardInterval == 0 || is_output()) guard();
+  if (step_ / kGuardInterval != before / kGuardInterval || is_output()) guard();
   return true;
 }
 
 void SceneRun::advance() {
+  if (window_) return exchange();
   ++step_;
   const double dt = protocol::seconds(simulation_.clock.duration(step_));
-  if (world_) {
-    const auto predicted = world_->predict(time(), dt);
-    for (std::size_t b = 0; b < predicted.size(); ++b) simulation_.bodies[b] = to_fluid(predicted[b]);
-  }
+  if (world_) set_bodies(world_->predict(time(), dt));
   simulation_.solver->step(dt, simulation_.bodies);
-  if (world_ && world_->has_free_bodies()) world_->correct(dt, to_rigid(simulation_.solver->wrenches()));
+}
+
+void SceneRun::set_bodies(const std::vector<rigid::Kinematics>& motion) {
+  for (std::size_t b = 0; b < motion.size(); ++b) simulation_.bodies[b] = to_fluid(motion[b]);
+}
+
+void SceneRun::exchange() {
+  const protocol::StepClock& clock = simulation_.clock;
+  const sluice::Coupling& coupling = simulation_.coupling.coupling;
+  const std::uint64_t first = step_ + 1;
+  step_ = clock.exchange_end(first, coupling.steps_per_exchange());
+  std::vector<clients::Window::Step> steps;
+  for (std::uint64_t k = first; k <= step_; ++k)
+    steps.push_back({protocol::seconds(clock.time(k)), protocol::seconds(clock.duration(k))});
+
+  fluid::Solver& solver = *simulation_.solver;
+  window_->begin(steps);
+  if (coupling.scheme() == IMPLICIT) solver.save();
+  std::vector<clients::Window::Wrenches> answer;
+  Eigen::Vector3d on_walls, on_bodies;
+  do {
+    if (!answer.empty()) solver.restore();
+    answer.clear();
+    on_walls = on_bodies = Eigen::Vector3d::Zero();
+    const auto motion = window_->predict();
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      set_bodies(motion[k]);
+      const double half = 0.5 * steps[k].length;
+      const auto add = [&] {
+        on_walls += half * solver.wall_wrench().force;
+        for (const fluid::Wrench& wrench : solver.wrenches()) on_bodies += half * wrench.force;
+      };
+      add();
+      solver.step(steps[k].length, simulation_.bodies);
+      add();
+      answer.push_back(to_rigid(solver.wrenches()));
+    }
+  } while (!window_->accept(answer));
+  wall_impulse_ += on_walls;
+  body_impulse_ += on_bodies;
+  ++exchanges_;
+  iterations_ += static_cast<std::uint64_t>(window_->iterations());
+  largest_residual_ = std::max(largest_residual_, window_->residual());
 }
 
 void SceneRun::guard() const {

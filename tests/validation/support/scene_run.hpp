@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "clients/rigid/window.hpp"
 #include "rigid/world.hpp"
 #include "server/simulation.hpp"
 #include "validation/support/case.hpp"
@@ -24,8 +25,8 @@ class SceneRun {
   // A scene that is not in a file. Precondition: protocol::check_fields finds nothing.
   explicit SceneRun(const Scene& scene, int threads = 1, Walls walls = Walls::kNotMeasured);
 
-  // Advances by one fluid step, or to the next output time; false when the run is over. Throws server::Stop
-  // when the fluid has become unstable.
+  // Advances by one exchange (one fluid step unless the scene asks for more), or to the next output time;
+  // false when the run is over. Throws server::Stop when the fluid has become unstable.
   bool next_step();
   bool next_output();
   [[nodiscard]] bool is_output() const { return simulation_.clock.is_output(step_); }
@@ -34,6 +35,16 @@ class SceneRun {
   [[nodiscard]] double end_time() const;
   [[nodiscard]] const Scene& scene() const { return simulation_.scene; }
   [[nodiscard]] const fluid::Solver& solver() const { return *simulation_.solver; }
+  [[nodiscard]] const server::Simulation& simulation() const { return simulation_; }
+  [[nodiscard]] const rigid::World& world() const { return *world_; }
+  // Iterations of all exchanges, and exchanges.
+  [[nodiscard]] std::uint64_t iterations() const { return iterations_; }
+  [[nodiscard]] std::uint64_t exchanges() const { return exchanges_; }
+  // What the liquid gave to the walls and to the bodies since the start [N s], by the kicks of its steps. Of
+  // the walls only where their force is measured.
+  [[nodiscard]] const Eigen::Vector3d& wall_impulse() const { return wall_impulse_; }
+  [[nodiscard]] const Eigen::Vector3d& body_impulse() const { return body_impulse_; }
+  [[nodiscard]] double largest_residual() const { return largest_residual_; }
   // Of every fluid particle, in the order of snapshots [kg].
   [[nodiscard]] const std::vector<double>& masses() const { return masses_; }
   // Of a body at the present time, and the fluid's action on it.
@@ -45,12 +56,18 @@ class SceneRun {
 
  private:
   void advance();
+  void exchange();
+  void set_bodies(const std::vector<rigid::Kinematics>& motion);
   void guard() const;
 
   server::Simulation simulation_;
   std::unique_ptr<rigid::World> world_;
+  std::unique_ptr<clients::Window> window_;  // where a body is free
   std::vector<double> masses_;
   std::uint64_t step_ = 0;
+  std::uint64_t iterations_ = 0, exchanges_ = 0;
+  double largest_residual_ = 0;
+  Eigen::Vector3d wall_impulse_ = Eigen::Vector3d::Zero(), body_impulse_ = Eigen::Vector3d::Zero();
   double seconds_ = 0;  // wall-clock time in advance()
 };
 

@@ -1,0 +1,25 @@
+#include <fmt/format.h>
+
+#include "protocol/field_check.hpp"
+
+namespace sluice::protocol {
+
+void check_coupling(const Scene& scene, FieldCheck& check) {
+  const Coupling& c = scene.coupling();
+  if (!CouplingScheme_IsValid(c.scheme()))
+    check.report("coupling.scheme",
+                 fmt::format("{} is none; give EXPLICIT, IMPLICIT or AUTO", static_cast<int>(c.scheme())));
+  if (c.has_steps_per_exchange()) check.within(c.steps_per_exchange(), 1, 256, "coupling.steps_per_exchange");
+  if (c.has_tolerance()) check.within(c.tolerance(), 1e-14, 1, "coupling.tolerance");
+  if (c.has_most_iterations()) check.within(c.most_iterations(), 1, 100, "coupling.most_iterations");
+  if (c.has_shorten_steps() && (c.scheme() == IMPLICIT || c.scheme() == AUTO))
+    check.report("coupling.shorten_steps", "belongs to the scheme EXPLICIT; set that or leave this out");
+  if (c.scheme() == EXPLICIT || c.scheme() == COUPLING_UNSPECIFIED) {
+    constexpr const char* kReason =
+        "belongs to the schemes IMPLICIT and AUTO; set one of those or leave this out";
+    if (c.has_tolerance()) check.report("coupling.tolerance", kReason);
+    if (c.has_most_iterations()) check.report("coupling.most_iterations", kReason);
+  }
+}
+
+}  // namespace sluice::protocol

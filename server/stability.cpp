@@ -1,0 +1,63 @@
+#include "server/stability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "fluid/body_step.hpp"
+
+namespace sluice::server {
+
+double allowed_indicator(std::uint64_t steps_per_exchange) {
+  (void)steps_per_exchange;
+  return 0.5;
+}
+
+double largest_exchange_step(const Scene& scene, const fluid::Setup& setup) {
+  double largest = std::numeric_limits<double>::infinity();
+  const std::uint64_t steps = scene.coupling().steps_per_exchange();
+  if (!scene.coupling().shorten_steps() || steps == 1) return largest;
+  const double allowed = allowed_indicator(steps) / static_cast<double>(steps);
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const double mass = setup.bodies[b].free_mass;
+    if (mass > 0) largest = std::min(largest, allowed * mass / fluid::body_impedance(setup, b));
+  }
+  return largest;
+}
+
+CouplingPlan plan_coupling(const Scene& scene, const fluid::Setup& setup, double step) {
+  CouplingPlan plan{scene.coupling(), {}};
+  const std::uint64_t steps = scene.coupling().steps_per_exchange();
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    BodyStability& body = plan.stability.emplace_back();
+    const double mass = setup.bodies[b].free_mass;
+    body.set_impedance(fluid::body_impedance(setup, b));
+    body.set_indicator(mass > 0 ? body.impedance() * static_cast<double>(steps) * step / mass : 0);
+    body.set_allowed(allowed_indicator(steps));
+  }
+  if (plan.coupling.scheme() != AUTO) return plan;
+  const bool all_stable = std::all_of(plan.stability.begin(), plan.stability.end(),
+                                      [](const BodyStability& b) { return b.indicator() <= b.allowed(); });
+  plan.coupling.set_scheme(all_stable ? EXPLICIT : IMPLICIT);
+  // Relaxation by one number finds many steps at once of a light body only badly.
+  if (!all_stable) plan.coupling.set_steps_per_exchange(1);
+  return plan;
+}
+
+std::vector<std::string> stability_warnings(const Scene& scene, const CouplingPlan& plan) {
+  std::vector<std::string> lines;
+  if (plan.coupling.scheme() != EXPLICIT) return lines;
+  for (int b = 0; b < scene.body_size(); ++b) {
+    const BodyStability& body = plan.stability[static_cast<std::size_t>(b)];
+    if (body.indicator() <= body.allowed()) continue;
+    lines.push_back(fmt::format(
+        "body '{}': 2 rho c A t/m is {:.3g}, up to {:.3g} is stable with {} steps an exchange; take fewer, "
+        "or "
+        "coupling {{ scheme: AUTO }}",
+        scene.body(b).name(), body.indicator(), body.allowed(), plan.coupling.steps_per_exchange()));
+  }
+  return lines;
+}
+
+}  // namespace sluice::server
