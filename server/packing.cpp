@@ -17,6 +17,7 @@ constexpr double kBand = 5.0;  // around a body in which particles move, in spac
 constexpr int kSweeps = 100;
 constexpr double kShare = 0.1;        // of h^2 grad C that a sweep moves
 constexpr double kLargestMove = 0.1;  // in spacings
+constexpr double kNearest = 0.25;     // that a packed particle may be to a surface, in spacings
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -64,7 +65,8 @@ class Packing {
         dx_(scene.spacing()),
         h_(scene.formulation().smoothing() * dx_) {
     for (const Body& body : scene.body()) {
-      bodies_.push_back({to_shape(body, dimension_), initial_kinematics(body, dimension_), body.displaces_fluid()});
+      bodies_.push_back(
+          {to_shape(body, dimension_), initial_kinematics(body, dimension_), body.displaces_fluid()});
       add_boundary(bodies_.back());
     }
   }
@@ -75,6 +77,7 @@ class Packing {
       if (body.displaces && !fits(body)) choose_band(body);
     if (moving_.empty()) return way;
     for (int sweep = 0; sweep < kSweeps; ++sweep) relax();
+    if (!has_room()) return way;
     for (std::size_t m = 0; m < source_.size(); ++m)
       if (source_[m] >= 0)
         way[static_cast<std::size_t>(source_[m])] =
@@ -105,6 +108,15 @@ class Packing {
       const double d = distance_to(body, x) / dx_;
       return d < 0.45 || (d > 0.55 && d < 0.7);
     });
+  }
+
+  // Whether every particle found a place in front of the bodies. Between bodies that are a few spacings apart
+  // there may be none; then the lattice stays as it was cut.
+  [[nodiscard]] bool has_room() const {
+    for (std::size_t m = 0; m < moving_.size(); ++m)
+      for (const Placed& body : bodies_)
+        if (source_[m] >= 0 && distance_to(body, moving_[m]) < kNearest * dx_) return false;
+    return true;
   }
 
   // Particles near the body move; the lattice goes on beyond the liquid, and is fixed beyond the tank.
