@@ -42,8 +42,11 @@ bool goes_by_groups(const Formulation& formulation) {
 template <int Dim, typename Kernel>
 SearchPlan search_plan(const Setup& setup) {
   const bool groups = goes_by_groups<Dim, Kernel>(setup.formulation);
-  const bool singles = !groups || setup.has_viscous_stress() || setup.formulation.shifting > 0.0;
-  return {.singles = singles, .groups = groups, .cell = group_edge<Dim>(setup.spacing)};
+  const bool singles = !groups || setup.formulation.shifting > 0.0;
+  return {.singles = singles,
+          .wall_singles = singles || setup.has_viscous_stress(),
+          .groups = groups,
+          .cell = group_edge<Dim>(setup.spacing)};
 }
 
 template <int Dim>

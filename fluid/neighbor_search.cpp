@@ -84,7 +84,7 @@ void NeighborSearch<Dim>::rebuild(Particles<Dim>& fluid, const BoundaryParticles
   halo_.append(fluid, image_cells.item());
   const SearchGrids<Dim> grids{cells, image_cells, !images.empty()};
   const Visibility<Dim> visibility(fluid, boundary, reach);
-  if (plan_.singles) list_singles(fluid, boundary, grids, visibility, parallel);
+  if (plan_.singles || plan_.wall_singles) list_singles(fluid, boundary, grids, visibility, parallel);
   if (plan_.groups) groups_.rebuild(fluid, boundary, grids, visibility, reach, cell_, parallel);
 
   fluid_at_build_.resize(fluid.size());
@@ -112,11 +112,13 @@ void NeighborSearch<Dim>::list_singles(const Particles<Dim>& fluid, const Bounda
         low, high, [&](std::uint32_t first, std::uint32_t last) { visit_row(n + first, n + last); });
   };
 
-  fluid_ = make_list(fluid.size(), parallel, [&](std::size_t i, const auto& emit) {
-    for_fluid_near(fluid.node[i].x, [&](std::uint32_t j) {
-      if (j != i && visibility.fluid_sees_fluid(i, j)) emit(j);
+  if (plan_.singles)
+    fluid_ = make_list(fluid.size(), parallel, [&](std::size_t i, const auto& emit) {
+      for_fluid_near(fluid.node[i].x, [&](std::uint32_t j) {
+        if (j != i && visibility.fluid_sees_fluid(i, j)) emit(j);
+      });
     });
-  });
+  if (!plan_.wall_singles) return;
 
   const NeighborList all = make_list(boundary.size(), parallel, [&](std::size_t w, const auto& emit) {
     for_fluid_near(boundary.node()[w].x, [&](std::uint32_t j) {

@@ -24,9 +24,10 @@ struct NeighborList {
 
 // Which lists a search makes, and how it sorts.
 struct SearchPlan {
-  bool singles = true;  // of every particle
-  bool groups = false;  // of groups of particles (group_list.hpp)
-  double cell = 0;      // edge of the cells that the particles are sorted by [m]; 0: the reach of the search
+  bool singles = true;       // of fluid near every fluid particle
+  bool wall_singles = true;  // of boundary near every fluid particle, and the other way round
+  bool groups = false;       // of groups of particles (group_list.hpp)
+  double cell = 0;  // edge of the cells that the particles are sorted by [m]; 0: the reach of the search
 };
 
 // Finds all pairs within the support plus a skin, and keeps the lists until a particle may have crossed the

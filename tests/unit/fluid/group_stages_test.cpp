@@ -31,7 +31,7 @@ class Water {
     bodies[1].velocity = {0.5, 0.1, 0.0};
     bodies[1].angular_velocity = {0.0, 0.0, 0.7};
     boundary_->move(bodies);
-    const SearchPlan plan{.singles = true, .groups = true, .cell = group_edge<Dim>(kSpacing)};
+    const SearchPlan plan{.groups = true, .cell = group_edge<Dim>(kSpacing)};
     search_.emplace(model_->kernel.support(), 0.1 * model_->kernel.support(), Period{}, plan);
     search_->update(fluid_, *boundary_, parallel_);
   }
