@@ -66,7 +66,7 @@ class Packing {
         h_(scene.formulation().smoothing() * dx_) {
     for (const Body& body : scene.body()) {
       bodies_.push_back(
-          {to_shape(body, dimension_), initial_kinematics(body, dimension_), body.displaces_fluid()});
+          {to_shape(body, dimension_), initial_kinematics(body, dimension_), body.displaces_fluid(), {}});
       add_boundary(bodies_.back());
     }
   }
@@ -74,7 +74,7 @@ class Packing {
   Points run() {
     Points way(particles_.size(), Eigen::Vector3d::Zero());
     for (const Placed& body : bodies_)
-      if (body.displaces && !fits(body)) choose_band(body);
+      if (body.displaces && !fits(body) && stands_alone(body)) choose_band(body);
     if (moving_.empty()) return way;
     for (int sweep = 0; sweep < kSweeps; ++sweep) relax();
     if (!has_room()) return way;
@@ -90,12 +90,14 @@ class Packing {
     fluid::Shape shape;
     fluid::Kinematics pose;
     bool displaces;
+    Points boundary;  // its particles
   };
 
-  void add_boundary(const Placed& body) {
+  void add_boundary(Placed& body) {
     const fluid::Boundary boundary = fluid::sample_body(body.shape, dx_, 2 * h_, dimension_);
     for (const Eigen::Vector3d& x : boundary.position)
-      fixed_.push_back(body.pose.position + body.pose.orientation * x);
+      body.boundary.push_back(body.pose.position + body.pose.orientation * x);
+    fixed_.insert(fixed_.end(), body.boundary.begin(), body.boundary.end());
   }
 
   [[nodiscard]] double distance_to(const Placed& body, const Eigen::Vector3d& x) const {
@@ -107,6 +109,17 @@ class Packing {
     return std::none_of(particles_.begin(), particles_.end(), [&](const Eigen::Vector3d& x) {
       const double d = distance_to(body, x) / dx_;
       return d < 0.45 || (d > 0.55 && d < 0.7);
+    });
+  }
+
+  // Whether no other body and no other region of liquid is near: packed between them, liquid starts under
+  // pressures that belong to nothing.
+  [[nodiscard]] bool stands_alone(const Placed& body) const {
+    if (scene_.fluid_size() > 1) return false;
+    return std::all_of(bodies_.begin(), bodies_.end(), [&](const Placed& other) {
+      return &other == &body ||
+             std::none_of(other.boundary.begin(), other.boundary.end(),
+                          [&](const auto& x) { return distance_to(body, x) < 2 * kBand * dx_; });
     });
   }
 

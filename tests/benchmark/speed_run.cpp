@@ -1,5 +1,6 @@
 #include "benchmark/speed_run.hpp"
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -13,8 +14,9 @@ namespace sluice::benchmark {
 
 namespace {
 
-// Memory of the process [bytes].
+// Memory of the process [bytes], without what earlier runs have given back.
 double resident() {
+  malloc_trim(0);
   std::ifstream statm("/proc/self/statm");
   double pages = 0, resident_pages = 0;
   statm >> pages >> resident_pages;
