@@ -1,21 +1,9 @@
 #include "fluid/boundary_order.hpp"
 
 #include "fluid/cell_grid.hpp"
+#include "fluid/permute.hpp"
 
 namespace sluice::fluid {
-
-namespace {
-
-template <typename T>
-void permute(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
-  if (values.empty()) return;
-  std::vector<T> sorted;
-  sorted.reserve(order.size());
-  for (const std::uint32_t k : order) sorted.push_back(values[k]);
-  values.swap(sorted);
-}
-
-}  // namespace
 
 template <int Dim>
 Boundary in_rows(const Boundary& boundary, double cell) {

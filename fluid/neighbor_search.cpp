@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "fluid/permute.hpp"
 #include "fluid/visibility.hpp"
 
 namespace sluice::fluid {
@@ -27,13 +28,6 @@ NeighborList make_list(std::size_t count, const Parallel& parallel, const ForNei
     for_neighbors(i, [&](std::uint32_t j) { list.index[at++] = j; });
   });
   return list;
-}
-
-template <typename T>
-void permute(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
-  std::vector<T> sorted(values.size());
-  for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = values[order[k]];
-  values.swap(sorted);
 }
 
 // Sorts what a particle carries from one step into the next.

@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "rigid/world.hpp"
+#include "tests/unit/rigid/stepping.hpp"
 
 namespace sluice::rigid {
 namespace {
@@ -38,15 +38,6 @@ JointSpec joint(Kind kind, const Eigen::Vector3d& point,
   spec.point = point;
   spec.axis = axis;
   return spec;
-}
-
-void run(World& simulated, int steps, double dt, const std::function<void()>& look = {}) {
-  const std::vector<Wrench> none(simulated.size());
-  for (int n = 1; n <= steps; ++n) {
-    simulated.predict(n * dt, dt);
-    simulated.correct(dt, none);
-    if (look) look();
-  }
 }
 
 // A spring from a wall with a damper beside it: x'' = -w0^2 x - 2 z w0 x'.

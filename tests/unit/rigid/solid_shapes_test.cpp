@@ -1,12 +1,12 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "rigid/overlap.hpp"
 #include "rigid/triangulate.hpp"
 #include "rigid/world.hpp"
+#include "tests/unit/rigid/stepping.hpp"
 
 namespace sluice::rigid {
 namespace {
@@ -42,15 +42,6 @@ WorldSpec on_floor(std::vector<BodySpec> bodies) {
   spec.tank.closed[4] = true;
   spec.bodies = std::move(bodies);
   return spec;
-}
-
-void run(World& simulated, int steps, double dt, const std::function<void()>& look = {}) {
-  const std::vector<Wrench> none(simulated.size());
-  for (int n = 1; n <= steps; ++n) {
-    simulated.predict(n * dt, dt);
-    simulated.correct(dt, none);
-    if (look) look();
-  }
 }
 
 const Eigen::Vector3d kCubeInertia = Eigen::Vector3d::Constant(2 * 0.04 / 6);
