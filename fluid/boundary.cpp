@@ -9,11 +9,11 @@
 namespace sluice::fluid {
 
 template <int Dim>
-BoundaryParticles<Dim>::BoundaryParticles(const Setup& setup) {
+BoundaryParticles<Dim>::BoundaryParticles(const Setup& setup, std::span<const Boundary> bodies) {
   const double cell = group_edge<Dim>(setup.spacing);
   const Boundary walls = in_rows<Dim>(setup.walls, cell);
   append(walls, setup.liquid.density);
-  for (const Boundary& body : setup.bodies) append(in_rows<Dim>(body, cell), setup.liquid.density);
+  for (const Boundary& body : bodies) append(in_rows<Dim>(body, cell), setup.liquid.density);
   first_.push_back(node_.size());
   velocity_.assign(size(), Vec<Dim>::Zero());
   for (std::size_t w = 0; w < walls.velocity.size(); ++w) velocity_[w] = narrow<Dim>(walls.velocity[w]);

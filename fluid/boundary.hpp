@@ -35,11 +35,13 @@ struct Surface {
 };
 
 // All boundary particles: the walls first, then body after body. Walls are body 0, at rest; the scene's body
-// b is body b + 1 here.
+// b is body b + 1 here; the images of bodies are bodies too.
 template <int Dim>
 class BoundaryParticles {
  public:
-  explicit BoundaryParticles(const Setup& setup);
+  explicit BoundaryParticles(const Setup& setup) : BoundaryParticles(setup, setup.bodies) {}
+  // With these in the place of the setup's bodies.
+  BoundaryParticles(const Setup& setup, std::span<const Boundary> bodies);
 
   // Moves the particles of the bodies to the end of the step.
   void move(std::span<const Kinematics> bodies);

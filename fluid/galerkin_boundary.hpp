@@ -86,14 +86,43 @@ void GalerkinSolver<Dim, Kernel>::collect_wrenches() {
     wrench_[body].force += force;
     wrench_[body].moment += arm.cross(force) + reaction_[w].couple;
   });
+  if (measure_wall_force_ && search_.halo().has_mirrors()) wrench_[0] = wrench_on_sides();
 }
 
-// Boundary particles of bodies always, of the walls on request, and those only once: not beyond a periodic
-// side.
+// Of a tank with mirrored sides, in which there are no bodies: what accelerates the fluid besides gravity,
+// with the opposite sign, since the images' share has no boundary particle to act on.
+template <int Dim, typename Kernel>
+Wrench GalerkinSolver<Dim, Kernel>::wrench_on_sides() const {
+  Wrench sum;
+  for (std::size_t i = 0; i < fluid_.size(); ++i) {
+    const Eigen::Vector3d force =
+        widen<Dim>(Vec<Dim>(fluid_.mass[i] * (model_.gravity - fluid_.acceleration[i])));
+    sum.force += force;
+    sum.moment += widen<Dim>(fluid_.node[i].x).cross(force);
+  }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    sum.force -= wrench_[b + 1].force;
+    sum.moment -= wrench_[b + 1].moment + bodies_[b].position.cross(wrench_[b + 1].force);
+  }
+  return sum;
+}
+
+// The force of particles that were thrown back at a mirrored side in this step.
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::add_impulse(double dt) {
+  if (!measure_wall_force_) return;
+  const Impulse impulse = search_.take_impulse();
+  wrench_[0].force += impulse.linear / dt;
+  wrench_[0].moment += impulse.angular / dt;
+}
+
+// Boundary particles of bodies always, but not of their images; of the walls on request, and those only once:
+// not beyond a periodic side.
 template <int Dim, typename Kernel>
 bool GalerkinSolver<Dim, Kernel>::is_measured(std::size_t w) const {
-  if (boundary_.body(w) > 0) return true;
-  if (!measure_wall_force_) return false;
+  const auto body = static_cast<std::size_t>(boundary_.body(w));
+  if (body > 0) return body <= bodies_.size();
+  if (!measure_wall_force_ || search_.halo().has_mirrors()) return false;
   const Vec<Dim>& x = boundary_.node()[w].x;
   for (int a = 0; a < Dim; ++a)
     if (period_.length[a] > 0.0 && (x[a] < period_.lower[a] || x[a] >= period_.lower[a] + period_.length[a]))

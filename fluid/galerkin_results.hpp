@@ -49,6 +49,7 @@ std::vector<WrenchParts> GalerkinSolver<Dim, Kernel>::wrench_parts() const {
   const auto add = [&](std::size_t i, std::size_t w) {
     if (boundary_.body(w) == 0) return;
     const auto b = static_cast<std::size_t>(boundary_.body(w) - 1);
+    if (b >= parts.size()) return;  // an image's
     const ReactionParts<Dim> pair = reaction_parts<Dim>(model_, fluid_, i, w, boundary_);
     const Eigen::Vector3d arm = widen<Dim>(boundary_.node()[w].x) - bodies_[b].position;
     const Eigen::Vector3d guard = widen<Dim>(pair.guard), viscous = widen<Dim>(pair.viscous.force);
@@ -87,7 +88,7 @@ double GalerkinSolver<Dim, Kernel>::stored_in_guard() const {
   for_boundary_pairs([&](std::size_t i, std::size_t w) {
     if (i < fluid_.size()) energy += guard_energy<Dim>(model_, fluid_.node[i].x - boundary_.node()[w].x);
   });
-  return energy;
+  return energy + mirror_guard_.energy(fluid_);
 }
 
 }  // namespace sluice::fluid

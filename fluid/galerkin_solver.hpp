@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "fluid/body_images.hpp"
 #include "fluid/body_step.hpp"
 #include "fluid/boundary.hpp"
 #include "fluid/checkpoint.hpp"
@@ -9,6 +10,7 @@
 #include "fluid/group_stages.hpp"
 #include "fluid/history.hpp"
 #include "fluid/lagged_acceleration.hpp"
+#include "fluid/mirror_guard.hpp"
 #include "fluid/model.hpp"
 #include "fluid/neighbor_search.hpp"
 #include "fluid/parallel.hpp"
@@ -81,8 +83,11 @@ class GalerkinSolver final : public Solver {
     return {model_, search_.groups(), parallel_};
   }
   void compute_single_gradients();
+  void compute_single_forces();
   void find_films();
   void compute_reactions();
+  [[nodiscard]] Wrench wrench_on_sides() const;
+  void add_impulse(double dt);
   [[nodiscard]] std::vector<std::uint32_t> measured_groups() const;
   template <typename Visit>
   void for_active_boundary(const Visit& visit) const;
@@ -102,10 +107,12 @@ class GalerkinSolver final : public Solver {
   Model<Dim, Kernel> model_;
   Parallel parallel_;
   Particles<Dim> fluid_;
+  BodyImages images_;
   BoundaryParticles<Dim> boundary_;
   NeighborSearch<Dim> search_;
   bool by_groups_;
   Period period_;
+  MirrorGuard<Dim> mirror_guard_;
   FreeSurface<Dim> surface_;
   Shifting<Dim> shifting_;
   std::vector<Kinematics> bodies_;

@@ -92,11 +92,13 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
     : model_(setup),
       parallel_(setup.threads),
       fluid_(stages::make_particles<Dim>(setup, model_.eos)),
-      boundary_(setup),
+      images_(setup),
+      boundary_(setup, images_.with_images(setup.bodies)),
       search_(model_.kernel.support() + model_.extra_reach, stages::kSkin * model_.kernel.support(),
-              setup.period, stages::search_plan<Dim, Kernel>(setup)),
+              setup.period, stages::search_plan<Dim, Kernel>(setup), setup.mirrors),
       by_groups_(stages::goes_by_groups<Dim, Kernel>(setup.formulation)),
       period_(setup.period),
+      mirror_guard_(setup.mirrors, model_),
       shifting_(setup.formulation.shifting),
       bodies_(setup.bodies.size()),
       lagged_(stages::make_lagged(setup, model_)),
@@ -150,6 +152,7 @@ void GalerkinSolver<Dim, Kernel>::step(double dt, std::span<const Kinematics> bo
     case Integrator::multistep:
       multistep(dt, bodies);
   }
+  add_impulse(dt);
   boundary_work_ += 0.5 * dt * (boundary_power(last_wrench_) + boundary_power(wrench_));
 }
 
@@ -205,7 +208,7 @@ template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::move_boundary(double dt, std::span<const Kinematics> bodies) {
   bodies_.assign(bodies.begin(), bodies.end());
   for (std::size_t b = 0; b < bodies_.size(); ++b) lagged_[b].replace(bodies_[b], dt);
-  boundary_.move(bodies_);
+  boundary_.move(images_.with_images(bodies_));
 }
 
 // Sweep 1.
@@ -302,7 +305,13 @@ void GalerkinSolver<Dim, Kernel>::compute_stress() {
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::compute_forces() {
   if constexpr (kHasGroups)
-    if (by_groups_) return group_stages().compute_forces(boundary_, fluid_);
+    if (by_groups_) group_stages().compute_forces(boundary_, fluid_);
+  if (!by_groups_) compute_single_forces();
+  mirror_guard_.accelerate(parallel_, fluid_);
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::compute_single_forces() {
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
     ForceSweep<Dim, Kernel> sweep(model_, fluid_, i);
     sweep.gather_fluid(search_.fluid_near_fluid(i));

@@ -1,22 +1,60 @@
 #include "fluid/halo.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 namespace sluice::fluid {
 
 template <int Dim>
-Halo<Dim>::Halo(const Period& period, double width)
-    : lower_(narrow<Dim>(period.lower)),
-      length_(narrow<Dim>(period.length)),
-      width_(width),
-      is_used_((length_.array() > 0.0).any()) {}
+Halo<Dim>::Halo(const Period& period, const Mirrors& mirrors, double width) : width_(width) {
+  for (int a = 0; a < Dim; ++a) {
+    const double lower = period.lower[a], length = period.length[a];
+    if (length > 0.0) {
+      sides_.push_back({a, lower, 1.0, 1.0, length});
+      sides_.push_back({a, lower + length, -1.0, 1.0, -length});
+    }
+    const auto side = static_cast<std::size_t>(2 * a);
+    if (mirrors.at[side]) sides_.push_back({a, mirrors.lower[a], 1.0, -1.0, 2.0 * mirrors.lower[a]});
+    if (mirrors.at[side + 1]) sides_.push_back({a, mirrors.upper[a], -1.0, -1.0, 2.0 * mirrors.upper[a]});
+  }
+}
 
 template <int Dim>
-void Halo<Dim>::wrap(Particles<Dim>& fluid) const {
-  if (!is_used()) return;
-  for (Node<Dim>& node : fluid.node)
-    for (int a = 0; a < Dim; ++a)
-      if (length_[a] > 0.0) node.x[a] -= length_[a] * std::floor((node.x[a] - lower_[a]) / length_[a]);
+bool Halo<Dim>::has_mirrors() const {
+  return std::any_of(sides_.begin(), sides_.end(), [](const Side& side) { return side.flip < 0.0; });
+}
+
+template <int Dim>
+Node<Dim> Halo<Dim>::Image::node(const Node<Dim>& original) const {
+  Node<Dim> node = original;
+  node.x = vector(original.x) + shift;
+  node.v = vector(original.v);
+  return node;
+}
+
+template <int Dim>
+void Halo<Dim>::wrap(Particles<Dim>& fluid) {
+  for (const Side& side : sides_)
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+      if (side.distance(fluid.node[i].x) >= 0.0) continue;
+      if (side.flip < 0.0) {
+        reflect(side, fluid.mass[i], fluid.node[i]);
+      } else {
+        while (side.distance(fluid.node[i].x) < 0.0) fluid.node[i].x[side.axis] += side.shift;
+      }
+    }
+}
+
+template <int Dim>
+void Halo<Dim>::reflect(const Side& side, double mass, Node<Dim>& node) {
+  const auto count = [&](double sign) {
+    const Eigen::Vector3d momentum = sign * mass * widen<Dim>(node.v);
+    impulse_.linear += momentum;
+    impulse_.angular += widen<Dim>(node.x).cross(momentum);
+  };
+  count(1.0);
+  node.x[side.axis] = side.shift - node.x[side.axis];
+  node.v[side.axis] = -node.v[side.axis];
+  count(-1.0);
 }
 
 template <int Dim>
@@ -29,23 +67,20 @@ template <int Dim>
 std::vector<Node<Dim>> Halo<Dim>::find(const Particles<Dim>& fluid) {
   std::vector<Node<Dim>> nodes;
   image_.clear();
-  const auto add = [&](std::uint32_t of, const Vec<Dim>& x, const Vec<Dim>& shift, int axis) {
-    for (const double way : {1.0, -1.0}) {
-      const double beyond = way > 0 ? x[axis] - lower_[axis] : lower_[axis] + length_[axis] - x[axis];
-      if (beyond >= width_) continue;
-      Vec<Dim> whole = shift;
-      whole[axis] += way * length_[axis];
-      image_.push_back({of, whole});
-      nodes.push_back(fluid.node[of]);
-      nodes.back().x += whole;
-    }
+  const auto add = [&](const Side& side, const Image& original) {
+    const Node<Dim> node = original.node(fluid.node[original.of]);
+    if (side.distance(node.x) >= width_) return;
+    Image image = original;
+    image.flip[side.axis] = side.flip;
+    image.shift[side.axis] = side.shift;
+    image_.push_back(image);
+    nodes.push_back(image.node(fluid.node[image.of]));
   };
-  for (int axis = 0; axis < Dim; ++axis) {
-    if (length_[axis] <= 0.0) continue;
-    const std::size_t images = image_.size();
-    for (std::uint32_t i = 0; i < fluid.size(); ++i) add(i, fluid.node[i].x, Vec<Dim>::Zero(), axis);
-    for (std::size_t k = 0; k < images; ++k)
-      add(image_[k].of, Vec<Dim>(nodes[k].x), Vec<Dim>(image_[k].shift), axis);
+  std::size_t other_axes = 0;
+  for (std::size_t s = 0; s < sides_.size(); ++s) {
+    if (s > 0 && sides_[s].axis != sides_[s - 1].axis) other_axes = image_.size();
+    for (std::uint32_t i = 0; i < fluid.size(); ++i) add(sides_[s], {i, Vec<Dim>::Ones(), Vec<Dim>::Zero()});
+    for (std::size_t k = 0; k < other_axes; ++k) add(sides_[s], Image(image_[k]));
   }
   return nodes;
 }
@@ -68,23 +103,28 @@ void Halo<Dim>::append(Particles<Dim>& fluid, const std::vector<std::uint32_t>& 
 
 template <int Dim>
 void Halo<Dim>::refresh_nodes(Particles<Dim>& fluid) const {
-  for (std::size_t k = 0; k < image_.size(); ++k) {
-    Node<Dim>& node = fluid.node[fluid.size() + k];
-    node = fluid.node[image_[k].of];
-    node.x += image_[k].shift;
-  }
+  for (std::size_t k = 0; k < image_.size(); ++k)
+    fluid.node[fluid.size() + k] = image_[k].node(fluid.node[image_[k].of]);
 }
 
 template <int Dim>
 void Halo<Dim>::refresh_sources(Particles<Dim>& fluid) const {
   for (std::size_t k = 0; k < image_.size(); ++k) {
+    const Image& image = image_[k];
     const std::size_t to = fluid.size() + k;
-    fluid.node[to].rho = fluid.node[image_[k].of].rho;
-    fluid.pressure[to] = fluid.pressure[image_[k].of];
-    fluid.fit[to] = fluid.fit[image_[k].of];
-    fluid.source[to] = fluid.source[image_[k].of];
-    if (!fluid.stress.empty()) fluid.stress[to] = fluid.stress[image_[k].of];
-    if (!fluid.slope_source.empty()) fluid.slope_source[to] = fluid.slope_source[image_[k].of];
+    fluid.node[to].rho = fluid.node[image.of].rho;
+    fluid.pressure[to] = fluid.pressure[image.of];
+    fluid.fit[to] = fluid.fit[image.of];
+    fluid.fit[to].g = image.vector(fluid.fit[image.of].g);
+    fluid.fit[to].G = image.tensor(fluid.fit[image.of].G);
+    const Source<Dim>& source = fluid.source[image.of];
+    fluid.source[to] = {image.vector(source.s), image.tensor(source.S), image.tensor(source.strain),
+                        image.vector(source.grad_rho)};
+    if (!fluid.stress.empty()) fluid.stress[to] = image.tensor(fluid.stress[image.of]);
+    if (!fluid.slope_source.empty()) {
+      const SlopeSource<Dim>& slope = fluid.slope_source[image.of];
+      fluid.slope_source[to] = {image.tensor(slope.sigma_V), slope.a, image.vector(slope.b)};
+    }
     if (fluid.point_source.empty()) continue;
     constexpr std::size_t kPoints = Particles<Dim>::kPoints;
     for (std::size_t s = 0; s < kPoints; ++s)

@@ -35,16 +35,18 @@ struct SearchPlan {
 template <int Dim>
 class NeighborSearch {
  public:
-  NeighborSearch(double support, double skin, const Period& period = {}, const SearchPlan& plan = {})
+  NeighborSearch(double support, double skin, const Period& period = {}, const SearchPlan& plan = {},
+                 const Mirrors& mirrors = {})
       : support_(support),
         skin_(skin),
         plan_(plan),
         cell_(plan.cell > 0.0 ? plan.cell : support + skin),
-        halo_(period, halo_width(support, skin)) {}
+        halo_(period, mirrors, halo_width(support, skin)) {}
 
-  // Depth of the halo [m]: boundary particles up to one reach beyond a periodic side take over the state of
-  // fluid up to one reach from themselves.
+  // Depth of the halo [m]: boundary particles up to one reach beyond a side with images take over the state
+  // of fluid up to one reach from themselves.
   static double halo_width(double support, double skin) { return 2.0 * (support + skin); }
+  Impulse take_impulse() { return halo_.take_impulse(); }
   // Neighbours may be images; what they are given is refreshed here.
   [[nodiscard]] const Halo<Dim>& halo() const { return halo_; }
 

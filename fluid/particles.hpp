@@ -43,7 +43,8 @@ struct PointSource {
 };
 
 // The state of the fluid, in the order of the last sort. Arrays of size() particles; node, pressure, stress,
-// fit, source, slope_source and point_source go on with the images beyond periodic sides (halo.hpp).
+// fit, source, slope_source and point_source go on with the images beyond periodic and mirrored sides
+// (halo.hpp).
 template <int Dim>
 struct Particles {
   std::vector<double> mass;            // [kg]

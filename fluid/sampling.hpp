@@ -23,13 +23,14 @@ struct Tank {
   Eigen::Vector3d min, max;  // [m]
   std::array<bool, 6> closed{true, true, true, true, true, true};
   std::array<bool, 3> periodic{false, false, false};  // then neither side of the axis is a wall
+  std::array<bool, 6> mirrored{};  // these sides have no layers: the fluid sees its image there
   std::array<Eigen::Vector3d, 6> velocity = zeros();  // of a wall along itself, a conveyor belt [m/s]
   bool no_slip = false;
 
   static std::array<Eigen::Vector3d, 6> zeros();
 };
 
-// Wall layers outside the tank, `support` [m] deep; they go on beyond periodic sides.
+// Wall layers outside the tank, `support` [m] deep; they go on beyond periodic and mirrored sides.
 Boundary sample_walls(const Tank& tank, double spacing, double support, int dimension);
 
 // Layers inward from the shape's surface, `support` [m] deep, in the body's frame. A shape thinner than two

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -98,11 +99,19 @@ struct Period {
   Eigen::Vector3d length = Eigen::Vector3d::Zero();  // per axis [m]; 0: not periodic
 };
 
+// Sides in which the fluid sees its own mirror image instead of boundary particles: plane walls at rest,
+// along which the fluid slides and gravity pulls. Of axis a they are number 2 a (lower) and 2 a + 1 (upper).
+struct Mirrors {
+  Eigen::Vector3d lower = Eigen::Vector3d::Zero(), upper = Eigen::Vector3d::Zero();  // [m]
+  std::array<bool, 6> at{};
+};
+
 struct Setup {
   int dimension = 2;
   double spacing = 0;  // dx [m]
   Eigen::Vector3d gravity{0, 0, 0};
   Period period;
+  Mirrors mirrors;
   Liquid liquid;
   Formulation formulation;
   FluidParticles fluid;

@@ -18,13 +18,13 @@ class Visibility {
   // `reach` is that of the pairs asked about [m]. The layers of one face of a plate may stand out of the
   // other by as much again.
   Visibility(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary, double reach)
-      : fluid_(fluid), boundary_(boundary), near_(boundary.plates().empty() ? 0 : fluid.size(), 0) {
+      : fluid_(fluid), boundary_(boundary), near_(boundary.plates().empty() ? 0 : fluid.node.size(), 0) {
     for (std::size_t i = 0; i < near_.size(); ++i)
       for (const Plate<Dim>& plate : boundary.plates())
         if (fluid::is_near(plate, fluid.node[i].x, 2.0 * reach)) near_[i] = 1;
   }
 
-  // Whether a plate can concern fluid particle i; images of periodic sides see everything.
+  // Whether a plate can concern fluid particle i, which may be an image.
   [[nodiscard]] bool is_near_plate(std::size_t i) const { return i < near_.size() && near_[i] != 0; }
 
   [[nodiscard]] bool fluid_sees_fluid(std::size_t i, std::size_t j) const {

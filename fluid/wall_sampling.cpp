@@ -12,34 +12,35 @@ struct Axis {
   std::vector<int> side;  // -1 below the tank, 1 above, 0 between
 };
 
-// Layers below and above: of the wall, or of the tank's images beyond a periodic side.
+// Layers beyond a side: of the wall, or of the tank's images, which are as good as inside.
 struct Layers {
-  int below, above;
-  bool inside;  // images of the tank are as good as inside
+  int count;
+  bool inside;
 };
 
-Axis divide(double min, double max, const Layers& layers, double spacing) {
+Axis divide(double min, double max, const Layers& below, const Layers& above, double spacing) {
   const int cells = std::max(1, static_cast<int>(std::lround((max - min) / spacing)));
   const double width = (max - min) / cells;
   Axis axis;
-  for (int k = -layers.below; k < cells + layers.above; ++k) {
+  for (int k = -below.count; k < cells + above.count; ++k) {
     const int side = k < 0 ? -1 : k >= cells ? 1 : 0;
+    const bool inside = side == 0 || (side < 0 ? below : above).inside;
     const double beyond = side < 0 ? min + (k + 0.5) * spacing : max + (k - cells + 0.5) * spacing;
-    axis.at.push_back(side == 0 ? min + (k + 0.5) * width : beyond);
-    axis.width.push_back(side == 0 ? width : spacing);
-    axis.side.push_back(layers.inside ? 0 : side);
+    axis.at.push_back(inside ? min + (k + 0.5) * width : beyond);
+    axis.width.push_back(inside ? width : spacing);
+    axis.side.push_back(inside ? 0 : side);
   }
   return axis;
 }
 
 const Axis kFlat{{0.0}, {1.0}, {0}};  // the third axis of a plane
 
-Layers layers_of(const Tank& tank, int axis, double spacing, double support) {
+Layers layers_of(const Tank& tank, std::size_t side, double spacing, double support) {
   const int depth = layer_count(support, spacing);
-  // Beyond a periodic side walls are needed as far as fluid inside may see them, neighbour lists' skin
+  // Beyond a side with images walls are needed as far as fluid inside may see them, neighbour lists' skin
   // included.
-  if (tank.periodic[axis]) return {2 * depth, 2 * depth, true};
-  return {tank.closed[2 * axis] ? depth : 0, tank.closed[2 * axis + 1] ? depth : 0, false};
+  if (tank.periodic[side / 2] || tank.mirrored[side]) return {2 * depth, true};
+  return {tank.closed[side] ? depth : 0, false};
 }
 
 }  // namespace
@@ -53,7 +54,8 @@ std::array<Eigen::Vector3d, 6> Tank::zeros() {
 Boundary sample_walls(const Tank& tank, double spacing, double support, int dimension) {
   std::array<Axis, 3> axis{kFlat, kFlat, kFlat};
   for (int a = 0; a < dimension; ++a)
-    axis[a] = divide(tank.min[a], tank.max[a], layers_of(tank, a, spacing, support), spacing);
+    axis[a] = divide(tank.min[a], tank.max[a], layers_of(tank, 2 * a, spacing, support),
+                     layers_of(tank, 2 * a + 1, spacing, support), spacing);
   Boundary walls;
   walls.no_slip = tank.no_slip;
   for (std::size_t c = 0; c < axis[2].at.size(); ++c)

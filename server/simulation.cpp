@@ -32,6 +32,23 @@ fluid::Period to_period(const fluid::Tank& tank) {
   return period;
 }
 
+// Sides that are mirrors, since that costs less and leaves no trace at the waterline: closed, at rest, not
+// sticking and along gravity. The formulations that carry vectors in arrays of their
+// own have no images of them.
+std::array<bool, 6> mirrored_sides(const Scene& scene, const fluid::Tank& tank, double support) {
+  std::array<bool, 6> mirrored{};
+  const Formulation& formulation = scene.formulation();
+  const bool sticks = tank.no_slip && scene.liquid().viscosity() > 0.0;
+  const bool has_images = formulation.quadrature() == NODAL && formulation.integrator() == KICK_DRIFT_KICK;
+  if (sticks || !has_images) return mirrored;
+  for (std::size_t side = 0; side < 2 * scene.dimension(); ++side) {
+    const auto a = static_cast<Eigen::Index>(side / 2);
+    mirrored[side] = tank.closed[side] && !tank.periodic[side / 2] && tank.velocity[side].isZero(0) &&
+                     to_vector(scene.gravity())[a] == 0.0 && tank.max[a] - tank.min[a] > 3 * support;
+  }
+  return mirrored;
+}
+
 protocol::StepClock make_clock(const Scene& scene, double largest_step) {
   try {
     return protocol::StepClock::for_run(scene.duration(), scene.output().rate(), largest_step);
@@ -57,8 +74,10 @@ fluid::Setup to_setup(const Scene& scene, int threads) {
   setup.limit_step_by_bodies = scene.coupling().shorten_steps();
 
   const double support = 2 * setup.formulation.smoothing * setup.spacing;  // of the kernel, 2 h
-  const fluid::Tank tank = to_tank(scene.domain());
+  fluid::Tank tank = to_tank(scene.domain());
+  tank.mirrored = mirrored_sides(scene, tank, support);
   setup.period = to_period(tank);
+  setup.mirrors = {tank.min, tank.max, tank.mirrored};
   setup.walls = fluid::sample_walls(tank, setup.spacing, support, setup.dimension);
   for (const Body& body : scene.body()) {
     setup.bodies.push_back(
