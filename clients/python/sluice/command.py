@@ -56,10 +56,35 @@ def positive(text):
     return int(text)
 
 
+def limits(text):
+    """LOW,HIGH"""
+    values = numbers(text)
+    if len(values) != 2 or not values[0] < values[1]:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a lower and a higher number such as 0,2.5")
+    return tuple(values)
+
+
+def scale(text):
+    value = number(text)
+    if not 0.1 <= value <= 4:
+        raise argparse.ArgumentTypeError(f"{text} is not from 0.1 to 4")
+    return value
+
+
+def number(text):
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
+    if not np.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text} is not finite")
+    return value
+
+
 def add_frames(parser):
     """--from, --until and --every: which frames a command goes through."""
-    parser.add_argument("--from", type=float, dest="first", metavar="T", help="leave out what is before this time [s]")
-    parser.add_argument("--until", type=float, dest="last", metavar="T", help="leave out what is after this time [s]")
+    parser.add_argument("--from", type=number, dest="first", metavar="T", help="leave out what is before this time [s]")
+    parser.add_argument("--until", type=number, dest="last", metavar="T", help="leave out what is after this time [s]")
     parser.add_argument("--every", type=positive, default=1, metavar="N", help="each Nth frame only")
 
 

@@ -6,10 +6,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from sluice.ledger import ledgers
-from sluice.recording import PROBES, RecordingError
+from sluice.probes import COLUMNS
+from sluice.recording import RecordingError
 
 WIDTH, LEGEND = 7.0, 2.0  # of the curves and beside them [inch]
 STYLES = ("-", "--", ":", "-.")  # one a run
+RESIDUAL = "third-law residual [-]"
 
 
 @dataclass
@@ -38,7 +40,8 @@ def _per_depth(run, unit):
 def body_curves(run):
     time, kinematics, wrenches = run.exchange()
     axes = "xyz"[: run.dimension]
-    vectors = [("position [m]", kinematics[..., 0:3]), ("velocity [m/s]", kinematics[..., 7:10])]
+    moved = kinematics[..., 0:3] - run.body_kinematics(0)[:, 0:3]
+    vectors = [("displacement [m]", moved), ("velocity [m/s]", kinematics[..., 7:10])]
     curves = [
         Curve(panel, f"{name} {a}", time, values[:, b, k])
         for panel, values in vectors
@@ -77,7 +80,7 @@ def probe_curves(run, names):
                 continue
             if base == "moment" and run.dimension == 2 and component != "z":
                 continue
-            unit = PROBES[kind][column]
+            unit = COLUMNS[kind][column]
             unit = _per_depth(run, unit) if kind == "force" else unit
             curves.append(Curve(f"{base} [{unit}]", f"{name} {component}".strip(), run.times, values))
     return curves
@@ -99,9 +102,6 @@ def ledger_curves(run):
     return curves
 
 
-RESIDUAL = "third-law residual [-]"
-
-
 def draw(curves_of_runs, title):
     """A figure from pairs of a run's label and its curves, a panel for each quantity."""
     panels = list(dict.fromkeys(curve.panel for _, curves in curves_of_runs for curve in curves))
@@ -115,7 +115,7 @@ def draw(curves_of_runs, title):
         order = [label for p, label in names if p == panel]
         for style, (run_label, curves) in zip(_styles(len(curves_of_runs)), curves_of_runs):
             for curve in (c for c in curves if c.panel == panel):
-                label = " ".join(part for part in (curve.label, run_label) if part)
+                label = f"{curve.label} ({run_label})" if run_label else curve.label
                 color = f"C{order.index(curve.label) % 10}"
                 axes.plot(curve.time, curve.values, style, color=color, linewidth=1.1, label=label)
         axes.set_ylabel(panel, fontsize=9)

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sluice.command import BAD_INPUT, DONE, Parser, add_frames, chosen_frames, run, words
-from sluice.recording import ENERGIES, FIELDS, PROBES, Recording, RecordingError
+from sluice.command import BAD_INPUT, DONE, Parser, add_frames, chosen_frames, number, run, words
+from sluice.probes import COLUMNS
+from sluice.recording import ENERGIES, FIELDS, Recording, RecordingError
 
 SAME_TIME = 1  # two frames are of one time up to this [ns]
 HEADINGS = ("time_s", "field", "unit", "max", "l2", "relative", "at")
@@ -103,7 +104,7 @@ def series_quantities(a, b):
         kind = a.probe_kind(name)
         if b.probe_kind(name) != kind:
             raise RecordingError(f"probe {name!r} is a {kind} probe in {a.path}, a {b.probe_kind(name)} probe in {b.path}")
-        for column, unit in PROBES[kind].items():
+        for column, unit in COLUMNS[kind].items():
             read = lambda r, f, n=name, c=column: at(r, (n, c), lambda q: q.probe(n)[c])[f : f + 1]
             result.append(Quantity(f"probe {name} {column}", unit, read))
     return result
@@ -196,7 +197,7 @@ def arguments(argv):
         help="only these: position, velocity, density, pressure, body, energy, probe, 'probe NAME' ...",
     )
     add_frames(parser)
-    parser.add_argument("--tolerance", type=float, default=0.0, metavar="R", help="allowed relative difference, 0 by default")
+    parser.add_argument("--tolerance", type=number, default=0.0, metavar="R", help="allowed relative difference, 0 by default")
     parser.add_argument("--all", action="store_true", help="print every field at every time")
     parser.add_argument("--csv", metavar="FILE", help="every field at every time, a line each")
     return parser.parse_args(argv)

@@ -11,7 +11,8 @@ import numpy as np
 
 from sluice import shapes, solids, vtk
 from sluice.command import DONE, Parser, add_frames, chosen_frames, numbers, run, words
-from sluice.recording import ENERGIES, PROBES, Recording, RecordingError
+from sluice.probes import COLUMNS
+from sluice.recording import ENERGIES, Recording, RecordingError
 
 KINEMATICS = (
     [f"position_{a} [m]" for a in "xyz"] + [f"orientation_{a}" for a in "wxyz"] + [f"velocity_{a} [m/s]" for a in "xyz"]
@@ -99,7 +100,7 @@ def frame_table(run_, frames):
     headings = ["time [s]"] + [f"{name} energy [J]" for name in ENERGIES]
     columns = [run_.times] + [run_.energy(name) for name in ENERGIES]
     for name in run_.probes:
-        for column, unit in PROBES[run_.probe_kind(name)].items():
+        for column, unit in COLUMNS[run_.probe_kind(name)].items():
             headings.append(f"{name} {column} [{unit}]")
         columns += list(run_.probe(name).values())
     return headings, np.column_stack(columns)[frames]

@@ -8,7 +8,7 @@ import sys
 from contextlib import ExitStack
 from pathlib import Path
 
-from sluice.command import DONE, Parser, numbers, run, words
+from sluice.command import DONE, Parser, limits, number, numbers, run, words
 from sluice.recording import Recording, RecordingError
 
 FORMATS = ("png", "svg", "pdf")
@@ -69,19 +69,12 @@ def draw_curves(runs, options):
     return curves.draw([(label, make(run_)) for run_, label in zip(runs, labels(runs))], f"{runs[0].name}: {what}".strip(": "))
 
 
-def limits(text):
-    low, high = numbers(text)
-    if not low < high:
-        raise ValueError
-    return low, high
-
-
 def arguments(argv):
     parser = Parser(prog="sluice plot", description="Draw a recording, or several over each other.")
     parser.add_argument("recordings", nargs="+", metavar="RUN.h5")
     parser.add_argument("-o", "--output", metavar="FILE", help="PNG, SVG or PDF; default: the first recording's name with .png")
     when = parser.add_mutually_exclusive_group()
-    when.add_argument("--time", type=float, metavar="T", help="the frame nearest to a time [s]; the last by default")
+    when.add_argument("--time", type=number, metavar="T", help="the frame nearest to a time [s]; the last by default")
     when.add_argument("--frame", type=int, metavar="N", help="a frame from 0; negative from the end")
     when.add_argument("--times", type=numbers, metavar="T1,T2,...", help="several times in one picture [s]")
     parser.add_argument("--field", default="speed", metavar="NAME", help="speed (default), pressure, density, velocity_x, velocity_y ...")
@@ -89,7 +82,7 @@ def arguments(argv):
     parser.add_argument("--particles", action="store_true", help="draw each particle as a disc instead of interpolating")
     parser.add_argument("--front", action="store_true", help="mark the foremost particle")
     parser.add_argument("--view", choices=("xy", "xz", "yz", "yx", "zx", "zy"), help="3D: axes to the right and up; from the side by default")
-    parser.add_argument("--slice", type=float, metavar="PLACE", help="3D: cut at this place [m] of the axis that is looked along")
+    parser.add_argument("--slice", type=number, metavar="PLACE", help="3D: cut at this place [m] of the axis that is looked along")
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--probes", nargs="?", type=words, const=[], metavar="NAME,...", help="what the probes measured over time; all or these")
     what.add_argument("--bodies", action="store_true", help="motion of the bodies and forces on them over time")

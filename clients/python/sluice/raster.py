@@ -86,8 +86,8 @@ def discs(grid, places, values, spacing, depth=None):
     radius = (DISC if depth is None else SPHERE) * spacing
     count = grid.width * grid.height
     front, image, distance = np.full(count, -np.inf), np.full(count, np.nan), np.full(count, np.inf)
-    for pixel, particle, square in _pairs(grid, places, radius):
-        key = -square if depth is None else depth[particle] + np.sqrt(radius * radius - square)
+    for pixel, particle, square in _pairs(grid, places, radius + 0.5 * grid.pixel):
+        key = -square if depth is None else depth[particle] + np.sqrt(np.maximum(radius * radius - square, 0))
         order = np.argsort(key, kind="stable")  # of the same pixel the front comes last and stays
         order = order[key[order] > front[pixel[order]]]
         at = pixel[order]

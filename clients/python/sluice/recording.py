@@ -6,17 +6,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from sluice import probes
+
 FORMAT = 1
 FIELDS = {"position": "m", "velocity": "m/s", "density": "kg/m³", "pressure": "Pa"}
 DERIVED = {"speed": "m/s"}
 ENERGIES = ("kinetic", "potential", "elastic", "boundary_work")
-# Columns of the array `probe` and their units, by the probe's kind (messages.proto, Frame).
-FORCES = {"force_x": "N", "force_y": "N", "force_z": "N", "moment_x": "N m", "moment_y": "N m", "moment_z": "N m"}
-PROBES = {
-    "point": {"pressure": "Pa", "velocity_x": "m/s", "velocity_y": "m/s", "velocity_z": "m/s", "wetness": "1"},
-    "surface": {"height": "m"},
-    "force": FORCES,
-}
 
 
 class RecordingError(Exception):
@@ -156,15 +151,12 @@ class Recording:
             known = ", ".join(self.probes) if self.probes else "none"
             raise RecordingError(f"{self.path} has no probe {name!r}; its probes: {known}")
         entry = self.scene["probe"][self.probes.index(name)]
-        return next(kind for kind in PROBES if kind in entry)
+        return next(kind for kind in probes.COLUMNS if kind in entry)
 
     def probe(self, name):
-        """A probe's values over the frames, by column (PROBES), each [frames]; a height where there is no liquid is NaN."""
+        """A probe's values over the frames, by column (probes.COLUMNS), each [frames]; a height without liquid is NaN."""
         kind = self.probe_kind(name)
-        values = self._read("observables/probe/value", np.s_[: self.frames, self.probes.index(name)])
-        if kind == "surface":
-            return {"height": np.where(values[:, 1] > 0, values[:, 0], np.nan)}
-        return {column: values[:, c] for c, column in enumerate(PROBES[kind])}
+        return probes.columns(kind, self._read("observables/probe/value", np.s_[: self.frames, self.probes.index(name)]))
 
     def exchange(self, *extra):
         """Times [s], kinematics [steps, bodies, 19] and wrenches [steps, bodies, 6] of every step, and `extra` datasets."""
