@@ -71,7 +71,9 @@ TEST_F(ExchangeTest, ProbesComeWithTheAnswerThatEndsWithAnOutputToWhoAskedForThe
   for (std::uint64_t step = 1; step <= 20; ++step) {
     const Message answer = ask(kinematics(step, step, 1));
     ASSERT_EQ(has_probes(answer), step % 10 == 0) << step;
-    if (step % 10 == 0) EXPECT_EQ(answer.array<double>("probe")[0], static_cast<double>(step));
+    if (step % 10 == 0) {
+      EXPECT_EQ(answer.array<double>("probe")[0], static_cast<double>(step));
+    }
   }
   // The same again is the same answer, probes and all.
   EXPECT_TRUE(has_probes(ask(kinematics(20, 20, 1))));

@@ -61,7 +61,7 @@ class Participant:
         return self.wrenches
 
     def drive(self, motions, control=None):
-        """Moves all bodies through the whole run; the server's End.
+        """Moves all bodies through the whole run, or until the server ends it; its End, which says why.
 
         `motions` has for every body's name an object with row(step, clock), its kinematics [19] over a step, asked for in
         order (sluice.motion). `control(run, time)` is called at time 0 and at every output, when the probes are fresh, and
@@ -70,10 +70,13 @@ class Participant:
         names = [body.name for body in self.scene.body]
         if sorted(motions) != sorted(names):
             raise ValueError(f"there are motions for {sorted(motions)}, the scene's bodies are {names}; give one for each")
-        for step in range(1, self.clock.steps + 1):
-            if control and (step - 1) % self.clock.steps_per_output == 0:
-                control(self, self.clock.time(step - 1))
-            self.step(step, [motions[name].row(step, self.clock) for name in names])
+        try:
+            for step in range(1, self.clock.steps + 1):
+                if control and (step - 1) % self.clock.steps_per_output == 0:
+                    control(self, self.clock.time(step - 1))
+                self.step(step, [motions[name].row(step, self.clock) for name in names])
+        except Ended as ended:
+            return ended.end
         return self.wait_for_end()
 
     def wait_for_end(self):

@@ -58,10 +58,9 @@ class Watcher:
         self._context = zmq.Context()
         try:
             self._news = make_socket(self._context, zmq.SUB, keys)
-            for topic in topics:
+            # The End has the topic status; who has got a Status gets every frame from then on.
+            for topic in sorted({*topics, "status"}):
                 self._news.subscribe(topic)
-            # The End has this topic.
-            self._news.subscribe("status")
             self._news.connect(publish_address(endpoint))
             hello = messages.Hello(role=messages.WATCHER, program=program)
             self._link = Link(self._context, endpoint, hello, keys)
