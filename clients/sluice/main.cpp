@@ -51,6 +51,12 @@ CLI::App* add_forwarding(CLI::App& app, const char* command, const char* what) {
   return sub;
 }
 
+[[noreturn]] void become_module(const std::string& module, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{"-m", module};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  become_python(std::move(words));
+}
+
 void add_scene(CLI::App& command, CheckOptions& options) {
   command.add_option("scene", options.scene, "Scene file: *.scene (textproto) or *.json")->required();
   command
@@ -117,6 +123,8 @@ int front_end(int argc, char** argv) {
   inspect_command->add_option("recording", recording, "RUN.h5")->required();
   inspect_command->add_flag("--json", json, "Print one JSON object");
   for (const Forwarded& python : kPython) add_forwarding(app, python.command, python.what);
+  CLI::App* python_command =
+      add_forwarding(app, "python", "Run a Python program with the package sluice: PROGRAM.py ...");
   CLI::App* keygen_command = app.add_subcommand("keygen", "Make CURVE keys for a server and a client");
   keygen_command->add_option("directory", key_directory, "DIR")->required();
 
@@ -131,7 +139,8 @@ int front_end(int argc, char** argv) {
       become(sibling(forwarded.program), command->remaining());
   for (const Forwarded& python : kPython)
     if (const CLI::App* command = app.get_subcommand(python.command); command->parsed())
-      become_python(python.program, command->remaining());
+      become_module(python.program, command->remaining());
+  if (python_command->parsed()) become_python(python_command->remaining());
   if (run_command->parsed()) return run(run_options);
   if (check_command->parsed()) return check(check_options);
   if (keygen_command->parsed()) return make_keys(key_directory);

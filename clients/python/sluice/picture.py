@@ -81,7 +81,7 @@ def visible(run, view, frames):
 def time_text(run, time):
     """With as many decimals as tell neighbouring frames apart."""
     interval = run.times[1] - run.times[0] if run.frames > 1 else 0.001
-    decimals = int(np.clip(1 - np.floor(np.log10(max(interval, 1e-9))), 1, 7))
+    decimals = next((d for d in range(1, 9) if abs(round(interval, d) - interval) <= 0.01 * interval), 9)
     return f"t = {time:.{decimals}f} s"
 
 

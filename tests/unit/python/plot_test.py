@@ -63,7 +63,9 @@ class PictureTest(Case):
 
     def test_the_time_has_digits_enough(self):
         with Recording(self.path) as run:
-            self.assertEqual(picture.time_text(run, 0.3), "t = 0.30 s")
+            self.assertEqual(picture.time_text(run, 0.3), "t = 0.3 s")
+            run.times = 0.0125 * np.arange(6)
+            self.assertEqual(picture.time_text(run, 0.05), "t = 0.0500 s")
 
     def test_several_runs_are_curves_over_each_other(self):
         other = write(self.directory / "other.h5", Values(seed=3))
