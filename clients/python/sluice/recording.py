@@ -23,15 +23,19 @@ def _open(path):
         raise RecordingError(f"{path} does not exist")
     if not h5py.is_hdf5(path):
         raise RecordingError(f"{path} is not an HDF5 file, so no recording")
+    # A file that is being written, or whose writer was killed, opens only as a writer's companion. Of any other that would
+    # hide damage: HDF5 then waits a minute for a writer to mend it.
     try:
-        return h5py.File(path, "r")
-    except OSError:
-        pass
-    try:
-        # A file that is being written, or whose writer was killed, opens only as a writer's companion.
-        return h5py.File(path, "r", swmr=True)
+        return h5py.File(path, "r", swmr=_is_open_for_writing(path))
     except OSError as error:
-        raise RecordingError(f"{path} cannot be opened: {error}") from None
+        raise RecordingError(f"{path} is damaged or cut short: {error}") from None
+
+
+def _is_open_for_writing(path):
+    """By the flags of the superblock, HDF5 File Format Specification 3.0, II.A."""
+    with open(path, "rb") as file:
+        start = file.read(12)
+    return len(start) == 12 and start[8] >= 3 and bool(start[11] & 0b101)
 
 
 class Recording:

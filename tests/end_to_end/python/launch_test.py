@@ -1,10 +1,14 @@
 """Runs and sweeps from Python: what they return, what they record, and how they fail."""
 
+import json
+import subprocess
 import unittest
 
 import numpy as np
 import sluice
-from scenes import Case
+from scenes import SOURCE, Case
+from sluice.launch import program
+from sluice.ledger import ledgers
 from sluice.motion import Function
 
 
@@ -48,6 +52,25 @@ class RunTest(Case):
 
         with self.assertRaisesRegex(Exception, "kinematics of body 0 at step 1: entry 0 is nan"):
             sluice.run(self.scene, until=0.1, threads=1, motion=move)
+
+
+class LedgerTest(Case):
+    def test_is_that_of_inspect(self):
+        scene = SOURCE / "clients/scenes/falling_cylinder.scene"
+        path = self.directory / "run.h5"
+        sluice.run(scene, path, spacing=0.022, until=0.1, threads=1)
+        inspected = subprocess.run([program(), "inspect", path, "--json"], check=True, capture_output=True)
+        (expected,) = json.loads(inspected.stdout)["ledger"]
+        with sluice.Recording(path) as run:
+            (cylinder,) = ledgers(run)
+        self.assertAlmostEqual(cylinder.time[-1], expected["time"], places=12)
+        self.assertEqual(set(cylinder.impulses), set(expected["impulse"]))
+        for name, values in cylinder.impulses.items():
+            np.testing.assert_allclose(values[-1, :3], expected["impulse"][name]["force"], rtol=1e-9, atol=1e-12)
+            np.testing.assert_allclose(values[-1, 3:], expected["impulse"][name]["moment"], rtol=1e-9, atol=1e-12)
+        np.testing.assert_allclose(cylinder.momentum[-1], expected["momentum_change"], rtol=1e-12)
+        self.assertAlmostEqual(cylinder.work[-1] / expected["work_of_liquid"], 1, places=9)
+        self.assertLess(cylinder.residual.max(), 1e-9)
 
 
 class SweepTest(Case):

@@ -48,11 +48,11 @@ class Values:
         self.energy = {n: random.normal(size=frames) for n in ("kinetic", "potential", "elastic", "boundary_work", "max_speed")}
 
 
-def write(path, values=None, scene=None):
-    """A recording of these values."""
+def write(path, values=None, scene=None, finish=None):
+    """A recording of these values; finish(file), if given, is called before the file is closed."""
     values, scene = values or Values(), scene or SCENE
     frame_time_ns = 100_000_000 * np.arange(values.frames)
-    with h5py.File(path, "w") as file:
+    with h5py.File(path, "w", libver="v110") as file:
         parameters = file.create_group("parameters")
         parameters.attrs["format"] = np.array([1], np.int32)
         parameters["scene_json"] = np.array([json.dumps(scene).encode()])
@@ -83,6 +83,8 @@ def write(path, values=None, scene=None):
             file["observables/probe/value"] = values.probe
         for name, series in values.energy.items():
             file[f"observables/energy/{name}/value"] = series
+        if finish:
+            finish(file)
     return path
 
 
