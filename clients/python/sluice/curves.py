@@ -11,7 +11,7 @@ from sluice.recording import RecordingError
 
 WIDTH, LEGEND = 7.0, 2.0  # of the curves and beside them [inch]
 STYLES = ("-", "--", ":", "-.")  # one a run
-RESIDUAL = "third-law residual [-]"
+RESIDUAL, ROUND_OFF = "third-law residual [-]", 1e-17
 
 
 @dataclass
@@ -121,6 +121,7 @@ def draw(curves_of_runs, title):
         axes.set_ylabel(panel, fontsize=9)
         if panel == RESIDUAL:
             axes.set_yscale("log")
+            axes.set_ylim(bottom=max(axes.get_ylim()[0], ROUND_OFF))
         axes.legend(fontsize=8, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
         tidy(axes)
     grid[-1].set_xlabel("t [s]", fontsize=9)

@@ -74,7 +74,7 @@ def visible(run, view, frames):
     height = upper[1] - lower[1]
     top = max(tops, default=upper[1]) + 0.06 * height
     top = np.clip(top, lower[1] + 0.1 * height, max(upper[1], min(top, upper[1] + height)))
-    margin = 1.5 * run.spacing
+    margin = min(1.5 * run.spacing, 0.015 * (upper - lower).max())
     return lower - margin, np.array([upper[0], top]) + margin
 
 
@@ -139,7 +139,9 @@ class Panel:
         places = x[seen][:, list(view.axes)]
         if depth is not None or self.style.as_particles:
             return raster.discs(self.grid, places, values[seen], run.spacing, depth)
-        return raster.interpolate(self.grid, places, values[seen], run.spacing, volumes)
+        walls = (corner[list(view.axes)] for corner in shapes.enclosure(run.scene))
+        places, values, origin = raster.mirrored(places, values[seen], *walls, raster.SUPPORT * run.spacing)
+        return raster.interpolate(self.grid, places, values, run.spacing, None if volumes is None else volumes[origin])
 
     def _show_bodies(self, frame):
         polygons = views.body_polygons(self.run, self.view, self.run.body_kinematics(frame))

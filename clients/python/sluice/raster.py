@@ -55,6 +55,21 @@ def _pairs(grid, places, radius):
         yield row[inside] * grid.width + column[inside], start + np.nonzero(inside)[0], square[inside]
 
 
+def mirrored(places, values, lower, upper, reach):
+    """Adds the images of what is within `reach` of a wall, so that the neighbourhood is full there.
+
+    Corners [2] are infinite where there is no wall. Returns places, values, and the number of the particle that each stands for.
+    """
+    origin = np.arange(len(places))
+    for axis in range(2):
+        for wall in (lower[axis], upper[axis]):
+            near = np.abs(places[:, axis] - wall) < reach
+            images = places[near].copy()
+            images[:, axis] = 2 * wall - images[:, axis]
+            places, origin = np.concatenate([places, images]), np.concatenate([origin, origin[near]])
+    return places, values[origin], origin
+
+
 def interpolate(grid, places, values, spacing, volumes=None):
     """Shepard interpolation with Wendland's C2 kernel in the plane, Monaghan, Rep. Prog. Phys. 68 (2005) 1703, eq. 2.7.
 
@@ -86,8 +101,9 @@ def discs(grid, places, values, spacing, depth=None):
     radius = (DISC if depth is None else SPHERE) * spacing
     count = grid.width * grid.height
     front, image, distance = np.full(count, -np.inf), np.full(count, np.nan), np.full(count, np.inf)
-    for pixel, particle, square in _pairs(grid, places, radius + 0.5 * grid.pixel):
-        key = -square if depth is None else depth[particle] + np.sqrt(np.maximum(radius * radius - square, 0))
+    # A disc's edge is half a pixel wide on either side; a sphere's hides what is behind it.
+    for pixel, particle, square in _pairs(grid, places, radius + (0.5 * grid.pixel if depth is None else 0)):
+        key = -square if depth is None else depth[particle] + np.sqrt(radius * radius - square)
         order = np.argsort(key, kind="stable")  # of the same pixel the front comes last and stays
         order = order[key[order] > front[pixel[order]]]
         at = pixel[order]

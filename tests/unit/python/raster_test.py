@@ -31,6 +31,14 @@ class InterpolationTest(unittest.TestCase):
         heights = 0.01 * (opacity > 0.5)[:, 40:160].sum(axis=0)
         self.assertLess(np.abs(heights - 1.0).max(), 0.1 * DX)
 
+    def test_walls_are_as_if_the_liquid_went_on_behind_them(self):
+        x = lattice(10, 5)
+        places, values, origin = raster.mirrored(x, x[:, 1], np.zeros(2), np.array([1.0, np.inf]), raster.SUPPORT * DX)
+        np.testing.assert_array_equal(values, x[origin, 1])
+        image, opacity, _ = raster.interpolate(grid(1, 0.4), places, values, DX)
+        self.assertEqual(opacity.min(), 1)
+        np.testing.assert_allclose(image[0], image[0].mean(), rtol=0.03)
+
     def test_a_lone_particle_is_seen(self):
         _, opacity, _ = raster.interpolate(grid(1, 1), np.array([[0.5, 0.5]]), np.ones(1), DX)
         area = 1e-4 * (opacity > 0.5).sum()
