@@ -1,8 +1,11 @@
 """A watcher that comes late, beside a participant that steps the run: both see the same."""
 
+import subprocess
+
 import numpy as np
 import sluice
 from scenes import Case
+from sluice.launch import program
 from sluice.link import Lost, publish_address
 from sluice.motion import row
 
@@ -46,6 +49,15 @@ class WatcherTest(Case):
             self.assertEqual(state.position.shape, (50, 3))
             self.assertEqual((state.probes["level"]["height"], state.probes["floor"]["pressure"]), seen[state.index])
             np.testing.assert_array_equal(state.kinematics[0, :3], [1.5, 1, 0])
+
+    def test_keys_are_used(self):
+        keys = self.directory / "keys"
+        subprocess.run([program(), "keygen", str(keys)], check=True, capture_output=True)
+        endpoint = self.serve("--keys", str(keys), "--until", "0.02")
+        with sluice.Watcher(endpoint, keys=keys) as watcher, sluice.Participant(endpoint, keys=keys) as run:
+            self.first_status(watcher)
+            self.steps(run, 1, run.clock.steps)
+            self.assertEqual([state.index for state in watcher.states()][-2:], [1, 2])
 
     def test_addresses(self):
         self.assertEqual(publish_address("ipc:///tmp/a.ipc"), "ipc:///tmp/a.ipc.publish")

@@ -1,5 +1,8 @@
 """What is exported is what was recorded: VTK files are read back from their bytes, tables from their text."""
 
+import shutil
+import subprocess
+import unittest
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -75,6 +78,24 @@ class VtkTest(Case):
         self.assertEqual(counts["NumberOfLines"], 4)
         ends = arrays["Points", "Points"][arrays["Lines", "connectivity"].reshape(-1, 2)]
         np.testing.assert_array_equal(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), np.ones(4))
+
+
+PARAVIEW = """
+from paraview.simple import OpenDataFile
+reader = OpenDataFile({path!r})
+reader.UpdatePipeline({time})
+print(len(reader.TimestepValues), reader.GetDataInformation().GetNumberOfPoints(), sorted(reader.PointData.keys()))
+"""
+
+
+@unittest.skipUnless(shutil.which("pvpython"), "ParaView is not installed")
+class ParaViewTest(Case):
+    def test_opens_the_series(self):
+        self.call(export, self.path, "--to", "vtk", self.directory)
+        script = self.directory / "open.py"
+        script.write_text(PARAVIEW.format(path=str(self.directory / "fluid.pvd"), time=0.5))
+        done = subprocess.run(["pvpython", "--force-offscreen-rendering", str(script)], capture_output=True, text=True)
+        self.assertIn("6 20 ['density', 'particle', 'pressure', 'velocity']", done.stdout, done.stderr)
 
 
 class CsvTest(Case):
