@@ -80,7 +80,8 @@ def message_text(message, path, comments):
 
 def enum_text(enum, path, comments):
     about = comments.get(path, "")
-    text = f"## {enum.name}\n" + (f"{about}\n\n" if about else "\n") + row(["value", "number", "meaning"]) + "|---|---|---|\n"
+    text = f"## {enum.name}\n" + (f"{about}\n\n" if about else "\n")
+    text += row(["value", "number", "meaning"]) + "|---|---|---|\n"
     for k, value in enumerate(enum.value):
         if value.number > 0:
             text += row([f"`{value.name}`", str(value.number), comments.get((*path, VALUES, k), "").rstrip(".")])

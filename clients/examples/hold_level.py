@@ -18,8 +18,8 @@ SCENE = Path(__file__).resolve().parent.parent / "scenes" / "held_level.scene"
 class Pid:
     """Speed of the gate [m/s] from the error of the level [m], in the velocity form: the gate itself is the integrator.
 
-    u = K (e' + e / T_i + T_d e''), by differences over the time between two outputs; K. J. Astrom and T. Hagglund, PID
-    Controllers, 2nd ed., 1995, section 3.2. Nothing winds up when the gate is at a stop. The level is smoothed over `filter` [s].
+    u = K (e' + e / T_i + T_d e''), by differences over the time between two outputs. Nothing winds up when the gate is at
+    a stop. The level is smoothed over `filter_time` [s], because waves pass the probe.
     """
 
     def __init__(self, level, gain, integral_time, derivative_time, filter_time):
@@ -69,7 +69,7 @@ def main():
     with sluice.Recording(options.recording) as run:
         late = run.times > 0.6 * run.times[-1]
         height = run.probe("level")["height"][late]
-        print(f"level {np.mean(height):.4f} m, asked for {options.level:.4f} m; off by {np.std(height):.4f} m (rms) at the end")
+        print(f"level {np.mean(height):.4f} m, asked for {options.level:.4f} m; waves of {np.std(height):.4f} m (rms)")
 
 
 if __name__ == "__main__":

@@ -81,6 +81,18 @@ def number(text):
     return value
 
 
+def add_picture(parser):
+    """What a picture shows and how, of plot and movie."""
+    fields = "speed (default), pressure, density, velocity_x, velocity_y ..."
+    parser.add_argument("--field", default="speed", metavar="NAME", help=fields)
+    parser.add_argument("--range", type=limits, metavar="LOW,HIGH", help="of the colours; from the frames by default")
+    parser.add_argument("--particles", action="store_true", help="draw each particle as a disc, do not interpolate")
+    views = ("xy", "xz", "yz", "yx", "zx", "zy")
+    parser.add_argument("--view", choices=views, help="3D: axes to the right and up; from the side by default")
+    cut = "3D: cut at this place [m] of the axis that is looked along"
+    parser.add_argument("--slice", type=number, metavar="PLACE", help=cut)
+
+
 def add_frames(parser):
     """--from, --until and --every: which frames a command goes through."""
     parser.add_argument("--from", type=number, dest="first", metavar="T", help="leave out what is before this time [s]")

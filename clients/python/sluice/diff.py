@@ -166,7 +166,8 @@ def write_csv(rows, path):
 
 
 def line(time, q, n):
-    return f"{time:<11.6g} {q.name:<28} {n.maximum:<12.4g} {n.l2:<12.4g} {n.relative:<11.3g} {q.unit:<7} {q.place(n.at)}".rstrip()
+    measured = f"{n.maximum:<12.4g} {n.l2:<12.4g} {n.relative:<11.3g}"
+    return f"{time:<11.6g} {q.name:<28} {measured} {q.unit:<7} {q.place(n.at)}".rstrip()
 
 
 def print_table(rows, everything):
@@ -186,9 +187,9 @@ def arguments(argv):
     parser = Parser(
         prog="sluice diff",
         description="Say how far two recordings are apart: of every field the time of the largest difference.",
-        epilog="max: largest difference of a particle, body or probe; L2: root of the mean square; relative: L2 over that of "
-        "the field in A. Exit code 0: nothing differs by more than the tolerance; 1: something does, or the recordings cannot "
-        "be compared.",
+        epilog="max: largest difference of a particle, body or probe; L2: root of the mean square; relative: L2 over that "
+        "of the field in A. Exit code 0: nothing differs by more than the tolerance; 1: something does, or the recordings "
+        "cannot be compared.",
     )
     parser.add_argument("a", metavar="A.h5")
     parser.add_argument("b", metavar="B.h5")
@@ -197,7 +198,7 @@ def arguments(argv):
         help="only these: position, velocity, density, pressure, body, energy, probe, 'probe NAME' ...",
     )
     add_frames(parser)
-    parser.add_argument("--tolerance", type=number, default=0.0, metavar="R", help="allowed relative difference, 0 by default")
+    parser.add_argument("--tolerance", type=number, default=0.0, metavar="R", help="allowed relative difference; 0")
     parser.add_argument("--all", action="store_true", help="print every field at every time")
     parser.add_argument("--csv", metavar="FILE", help="every field at every time, a line each")
     return parser.parse_args(argv)
@@ -213,7 +214,8 @@ def summary(rows, a, b, tolerance):
     if not beyond:
         return f"within {tolerance:g} at {counted}", True
     time, q, n = beyond[0]
-    return f"differ at {counted}, first at t = {time:g} s in {q.name}: relative {n.relative:.3g}, allowed {tolerance:g}", False
+    found = f"first at t = {time:g} s in {q.name}: relative {n.relative:.3g}, allowed {tolerance:g}"
+    return f"differ at {counted}, {found}", False
 
 
 def main(argv):

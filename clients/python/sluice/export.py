@@ -117,9 +117,11 @@ def write_csv(run_, frames, fields, directory):
     """particles_N.csv a frame, frames.csv (energies, probes), a table a body; paths of what is first of each."""
     for frame in frames:
         headings, values = particle_table(run_, frame, fields)
-        write_table(directory / f"particles_{frame:05d}.csv", ["particle", *headings], ((i, *row) for i, row in enumerate(values.tolist())))
+        rows = ((i, *row) for i, row in enumerate(values.tolist()))
+        write_table(directory / f"particles_{frame:05d}.csv", ["particle", *headings], rows)
     headings, values = frame_table(run_, frames)
-    written = [directory / f"particles_{frames[0]:05d}.csv", write_table(directory / "frames.csv", headings, values.tolist())]
+    written = [directory / f"particles_{frames[0]:05d}.csv"]
+    written.append(write_table(directory / "frames.csv", headings, values.tolist()))
     if run_.bodies:
         for name, headings, values in body_tables(run_):
             written.append(write_table(directory / f"body_{name}.csv", headings, values.tolist()))

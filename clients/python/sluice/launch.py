@@ -61,12 +61,13 @@ def _progress_of(line):
 
 
 def run(scene, output=None, settings=None, spacing=None, until=None, threads=None, force=False, motion=None, show=None):
-    """Runs a scene file to its end; the summary of `sluice run --json` as a dict (status, particles, energies, recording ...).
+    """Runs a scene file to its end; the summary of `sluice run --json` as a dict (status, energies, recording ...).
 
-    `settings` changes fields of the scene, {"body[0].density": 500}; `spacing` [m] is one of them. `until` [s] ends the run
-    early. `output` is the recording to make, which `force` allows to replace. `motion(endpoint)`, given, moves the bodies in
-    place of `sluice rigid` (sluice.Participant); it returns when the run is over. `show(fraction)` is told the progress; a bar
-    is drawn on a terminal unless it is given. Raises RunError when the run does not finish.
+    `settings` changes fields of the scene, {"body[0].density": 500}; `spacing` [m] is one of them. `until` [s] ends the
+    run early. `output` is the recording to make, which `force` allows to replace. `motion(endpoint)`, given, moves the
+    bodies in place of `sluice rigid` (sluice.Participant) and returns when the run is over; the summary is then short.
+    `show(fraction)` is told the progress; a bar is drawn on a terminal unless it is given. Raises RunError when the run
+    does not finish.
     """
     settings = {**({"spacing": spacing} if spacing is not None else {}), **(settings or {})}
     options = [str(scene), *_options(settings, until, threads)]
@@ -117,17 +118,22 @@ def _reason(summary, said):
     return "; ".join(said[-3:]) or "sluice said nothing"
 
 
+def start(words, log):
+    """One of the programs, with its output in a file."""
+    return subprocess.Popen([program(), *words], stdout=log, stderr=log, stdin=subprocess.DEVNULL)
+
+
 def _run_with(motion, options, output, force):
     """Server and recorder as processes of their own, the bodies moved here."""
     with tempfile.TemporaryDirectory(prefix="sluice-", dir=os.environ.get("XDG_RUNTIME_DIR")) as directory:
         endpoint = f"ipc://{directory}/run.ipc"
         serve = ["serve", "--scene", *options, "--listen", endpoint] + (["--expect-recorder"] if output else [])
         with tempfile.TemporaryFile("w+") as log:
-            processes = [subprocess.Popen([program(), *serve], stdout=log, stderr=log, stdin=subprocess.DEVNULL)]
+            processes = [start(serve, log)]
             try:
                 if output:
                     record = ["record", "--connect", endpoint, "-o", str(output)] + (["--force"] if force else [])
-                    processes.append(subprocess.Popen([program(), *record], stdout=log, stderr=log, stdin=subprocess.DEVNULL))
+                    processes.append(start(record, log))
                 motion(endpoint)
                 codes = [process.wait() for process in processes]
             finally:
@@ -151,10 +157,10 @@ def _points(values):
 def sweep(scene, values, measure=None, directory=None, at_once=2, until=None, threads=1, show=None):
     """Runs a scene with many settings, `at_once` of them at a time; a table: a list of dicts, one a run.
 
-    `values` is {"spacing": [0.004, 0.002], "body[0].density": [400, 600]}, of which all combinations are run, or a list of
-    settings. A row has the settings, then status, detail, fluid_particles, wall_seconds, recording, and what
-    `measure(recording)`, a function of a Recording, returns as a dict. A run that fails is a row that says so. Recordings are
-    `directory`/run_0.h5 ...; without a directory they are kept only as long as `measure` needs them.
+    `values` is {"spacing": [0.004, 0.002], "body[0].density": [400, 600]}, of which all combinations are run, or a list
+    of settings. A row has the settings, then status, detail, fluid_particles, wall_seconds, recording, and what
+    `measure(recording)`, a function of a Recording, returns as a dict. A run that fails is a row that says so.
+    Recordings are `directory`/run_0.h5 ...; without a directory they are gone after the sweep.
     """
     points = _points(values)
     done, fractions = [], [0.0] * len(points)

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-LIQUID = ("pressure", "viscous", "penetration")
 GRAVITY, CONSTRAINTS = "gravity", "contact and joints"
 
 
@@ -31,7 +30,7 @@ def exchange_begins(run, steps):
 
 
 def ledgers(run):
-    """One for each body. Those of free bodies have an entry for each exchange whose outcome is known, others for each step."""
+    """One for each body: of a free one with an entry for each exchange whose outcome is known, of others for each step."""
     time, kinematics, wrenches, parts, states = run.exchange("wrench_parts", "ledger")
     dt = np.diff(time, prepend=0.0)
     start = run.body_wrench(0), run.body_kinematics(0)
@@ -51,8 +50,9 @@ def _ledger(run, b, time, dt, kinematics, wrench, parts, states, first_wrench, b
     mean = _mean(wrench, first_wrench)
     mean_parts = _mean(parts, np.zeros(12))
     total, of_parts = (np.cumsum(dt[:, None] * values, axis=0) for values in (mean, mean_parts))
-    impulses = {"pressure": total - of_parts[:, :6] - of_parts[:, 6:], "viscous": of_parts[:, :6], "penetration": of_parts[:, 6:]}
-    power = np.einsum("ij,ij->i", mean[:, :3], kinematics[:, 7:10]) + np.einsum("ij,ij->i", mean[:, 3:], kinematics[:, 10:13])
+    viscous, penetration = of_parts[:, :6], of_parts[:, 6:]
+    impulses = {"pressure": total - viscous - penetration, "viscous": viscous, "penetration": penetration}
+    power = np.sum(mean * kinematics[:, 7:13], axis=1)
     work = np.cumsum(dt * power)
     given = np.cumsum(dt * np.linalg.norm(mean[:, :3], axis=1))
     ledger = Ledger(run.bodies[b], time, impulses, work)

@@ -17,8 +17,9 @@ def row(position, velocity=(0, 0, 0), acceleration=(0, 0, 0), angle=0.0, spin=0.
 
 
 class Function:
-    """Follows a function of time: offset(t) gives the offset x, y[, z] [m] from the initial position, and angle(t), if given,
-    the rotation about z [rad] from the initial one. Both are zero at time 0."""
+    """Follows functions of time: offset(t) gives x, y[, z] [m] from the initial position, angle(t), if given, the rotation
+    about z [rad] from the initial one. Both are zero at time 0.
+    """
 
     def __init__(self, body, offset, angle=None):
         self._place = np.array([*body.position, 0.0][:3], dtype=float)

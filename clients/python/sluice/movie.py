@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from sluice.command import DONE, Parser, add_frames, chosen_frames, limits, number, positive, run, scale
+from sluice.command import DONE, Parser, add_frames, add_picture, chosen_frames, number, positive, run, scale
 from sluice.progress import Bar
 from sluice.recording import Recording, RecordingError
 
@@ -46,7 +46,9 @@ def rate(run_, frames, options):
     wanted = options.speed / interval
     if wanted > MOST_FPS:
         every = int(np.ceil(wanted / MOST_FPS)) * options.every
-        raise RecordingError(f"--speed {options.speed:g} needs {wanted:.0f} pictures a second, at most {MOST_FPS}; add --every {every}")
+        raise RecordingError(
+            f"--speed {options.speed:g} needs {wanted:.0f} pictures a second, at most {MOST_FPS}; add --every {every}"
+        )
     return wanted
 
 
@@ -81,16 +83,13 @@ def film(run_, frames, options, output):
 def arguments(argv):
     parser = Parser(prog="sluice movie", description="Make a movie of a recording.")
     parser.add_argument("recording", metavar="RUN.h5")
-    parser.add_argument("-o", "--output", required=True, metavar="FILE", help="OUT.gif, or OUT.mp4 where ffmpeg is installed")
-    parser.add_argument("--field", default="speed", metavar="NAME", help="speed (default), pressure, density, velocity_x ...")
-    parser.add_argument("--range", type=limits, metavar="LOW,HIGH", help="of the colours; found from the frames by default")
+    files = "OUT.gif, or OUT.mp4 where ffmpeg is installed"
+    parser.add_argument("-o", "--output", required=True, metavar="FILE", help=files)
+    add_picture(parser)
     add_frames(parser)
     pace = parser.add_mutually_exclusive_group()
     pace.add_argument("--fps", type=positive, metavar="N", help="pictures a second, 20 by default")
     pace.add_argument("--speed", type=number, metavar="X", help="simulated seconds a second of the movie")
-    parser.add_argument("--particles", action="store_true", help="draw each particle as a disc instead of interpolating")
-    parser.add_argument("--view", choices=("xy", "xz", "yz", "yx", "zx", "zy"), help="3D: axes to the right and up")
-    parser.add_argument("--slice", type=number, metavar="PLACE", help="3D: cut at this place [m] of the axis that is looked along")
     parser.add_argument("--scale", type=scale, default=0.6, metavar="X", help="size, 0.6 by default: about 800 pixels wide")
     return parser.parse_args(argv)
 

@@ -86,7 +86,7 @@ def time_text(run, time):
 
 
 def inside_of_walls(run, view, corners, axes):
-    """What liquid can be seen in: the corners' box, cut at closed walls, beyond which the discs of the last particles reach."""
+    """What liquid can be seen in: the corners' box, cut at closed walls, beyond which the last particles' discs reach."""
     lower, upper = (corner[list(view.axes)] for corner in shapes.enclosure(run.scene))
     lower, upper = np.maximum(corners[0], lower), np.minimum(corners[1], upper)
     return Rectangle(lower, *(upper - lower), transform=axes.transData)

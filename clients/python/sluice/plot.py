@@ -8,7 +8,7 @@ import sys
 from contextlib import ExitStack
 from pathlib import Path
 
-from sluice.command import DONE, Parser, limits, number, numbers, run, words
+from sluice.command import DONE, Parser, add_picture, number, numbers, run, words
 from sluice.recording import Recording, RecordingError
 
 FORMATS = ("png", "svg", "pdf")
@@ -66,28 +66,27 @@ def draw_curves(runs, options):
     for run_ in runs:
         if run_.frames == 0:
             raise RecordingError(f"{run_.path} holds no frame")
-    return curves.draw([(label, make(run_)) for run_, label in zip(runs, labels(runs))], f"{runs[0].name}: {what}".strip(": "))
+    title = f"{runs[0].name}: {what}".strip(": ")
+    return curves.draw([(label, make(run_)) for run_, label in zip(runs, labels(runs))], title)
 
 
 def arguments(argv):
     parser = Parser(prog="sluice plot", description="Draw a recording, or several over each other.")
     parser.add_argument("recordings", nargs="+", metavar="RUN.h5")
-    parser.add_argument("-o", "--output", metavar="FILE", help="PNG, SVG or PDF; default: the first recording's name with .png")
+    parser.add_argument("-o", "--output", metavar="FILE", help="PNG, SVG or PDF; RUN.png by default")
     when = parser.add_mutually_exclusive_group()
     when.add_argument("--time", type=number, metavar="T", help="the frame nearest to a time [s]; the last by default")
     when.add_argument("--frame", type=int, metavar="N", help="a frame from 0; negative from the end")
     when.add_argument("--times", type=numbers, metavar="T1,T2,...", help="several times in one picture [s]")
-    parser.add_argument("--field", default="speed", metavar="NAME", help="speed (default), pressure, density, velocity_x, velocity_y ...")
-    parser.add_argument("--range", type=limits, metavar="LOW,HIGH", help="of the colours; found from the frames by default")
-    parser.add_argument("--particles", action="store_true", help="draw each particle as a disc instead of interpolating")
+    add_picture(parser)
     parser.add_argument("--front", action="store_true", help="mark the foremost particle")
-    parser.add_argument("--view", choices=("xy", "xz", "yz", "yx", "zx", "zy"), help="3D: axes to the right and up; from the side by default")
-    parser.add_argument("--slice", type=number, metavar="PLACE", help="3D: cut at this place [m] of the axis that is looked along")
     what = parser.add_mutually_exclusive_group()
-    what.add_argument("--probes", nargs="?", type=words, const=[], metavar="NAME,...", help="what the probes measured over time; all or these")
+    measured = "what the probes measured over time; all or these"
+    what.add_argument("--probes", nargs="?", type=words, const=[], metavar="NAME,...", help=measured)
     what.add_argument("--bodies", action="store_true", help="motion of the bodies and forces on them over time")
     what.add_argument("--energy", action="store_true", help="energies over time")
-    what.add_argument("--ledger", action="store_true", help="impulses on the bodies and what is left of Newton's third law over time")
+    balance = "impulses on the bodies, work, and what is left of Newton's third law over time"
+    what.add_argument("--ledger", action="store_true", help=balance)
     return parser.parse_args(argv)
 
 

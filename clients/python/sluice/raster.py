@@ -38,7 +38,7 @@ def make_grid(lower, upper, spacing, most_pixels, most_per_spacing=24):
 
 
 def _pairs(grid, places, radius):
-    """Every pixel within a radius [m] of a particle, in blocks: flat indices of pixels, particles, squared distances [m^2]."""
+    """Every pixel within a radius [m] of a particle, in blocks: indices of pixels, particles, squared distances [m^2]."""
     reach = int(np.ceil(radius / grid.pixel))
     offset = np.mgrid[-reach : reach + 1, -reach : reach + 1].reshape(2, -1)
     offset = offset[:, np.hypot(*offset) <= reach + 1].astype(np.int32)
@@ -58,7 +58,7 @@ def _pairs(grid, places, radius):
 def mirrored(places, values, lower, upper, reach):
     """Adds the images of what is within `reach` of a wall, so that the neighbourhood is full there.
 
-    Corners [2] are infinite where there is no wall. Returns places, values, and the number of the particle that each stands for.
+    Corners [2] are infinite where there is no wall. Returns places, values, and the particle that each stands for.
     """
     origin = np.arange(len(places))
     for axis in range(2):

@@ -80,7 +80,8 @@ class SweepTest(Case):
     def test_is_a_table_of_all_combinations(self):
         values = {"spacing": [0.1, 0.05], "liquid.density": [900.0, 1000.0]}
         table = sluice.sweep(self.scene, values, self.measure, at_once=2, until=0.02)
-        self.assertEqual([(row["spacing"], row["liquid.density"]) for row in table], [(0.1, 900.0), (0.1, 1000.0), (0.05, 900.0), (0.05, 1000.0)])
+        settings = [(row["spacing"], row["liquid.density"]) for row in table]
+        self.assertEqual(settings, [(0.1, 900.0), (0.1, 1000.0), (0.05, 900.0), (0.05, 1000.0)])
         self.assertEqual([row["particles"] for row in table], [50, 50, 200, 200])
         self.assertEqual({row["status"] for row in table}, {"FINISHED"})
         self.assertEqual({row["recording"] for row in table}, {None})

@@ -75,7 +75,8 @@ class DiffTest(Case):
         self.assertIn("identical at 2 common times", out)
 
     def test_what_cannot_be_compared_is_named(self):
-        self.expect_error(diff, [self.path, self.other(particles=15)], "has a number of particles of 20", "15", "--field energy")
+        fewer = self.other(particles=15)
+        self.expect_error(diff, [self.path, fewer], "has a number of particles of 20", "15", "--field energy")
         self.expect_error(diff, [self.path, self.path, "--field", "colour"], "no field 'colour'", "choose from position")
         solid = copy.deepcopy(SCENE)
         solid["dimension"] = 3

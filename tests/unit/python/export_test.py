@@ -124,7 +124,8 @@ class BadInputTest(Case):
         there.write_text("a file")
         self.expect_error(export, [self.path, "--to", "vtk", there], f"{there} is a file")
         self.expect_error(export, [self.path, "--to", "xls", "x"], "invalid choice: 'xls'")
-        self.expect_error(export, [self.path, "--to", "csv", self.directory / "x", "--field", "hue"], "no field 'hue'")
-        self.expect_error(export, [self.path, "--to", "csv", self.directory / "x", "--times", "9"], "time 9 s is not in")
-        self.expect_error(export, [self.path, "--to", "csv", self.directory / "x", "--every", "0"], "not a whole number from 1")
+        to_csv = [self.path, "--to", "csv", self.directory / "x"]
+        self.expect_error(export, [*to_csv, "--field", "hue"], "no field 'hue'")
+        self.expect_error(export, [*to_csv, "--times", "9"], "time 9 s is not in")
+        self.expect_error(export, [*to_csv, "--every", "0"], "not a whole number from 1")
         self.assertFalse((self.directory / "x").exists())

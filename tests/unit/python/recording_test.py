@@ -7,7 +7,9 @@ import numpy as np
 import sluice
 from sluice import diff, export, plot
 from sluice.recording import Recording, RecordingError
-from written import Case, Values, write
+from written import SCENE, Case, write
+
+BARE = {name: value for name, value in SCENE.items() if name not in ("body", "probe")}
 
 
 class ReadingTest(Case):
@@ -77,8 +79,9 @@ class ReadingTest(Case):
 
 class BadFileTest(Case):
     def expect(self, path, text):
-        for module, words in ((plot, [path]), (diff, [path, self.path]), (export, [path, "--to", "csv", self.directory / "x"])):
-            self.expect_error(module, words, str(path), text)
+        self.expect_error(plot, [path], str(path), text)
+        self.expect_error(diff, [path, self.path], str(path), text)
+        self.expect_error(export, [path, "--to", "csv", self.directory / "x"], str(path), text)
 
     def test_no_file_and_no_recording(self):
         self.expect(self.directory / "absent.h5", "does not exist")
@@ -104,18 +107,12 @@ class BadFileTest(Case):
             self.expect(cut, str(cut))
 
     def test_bodies_that_are_not_there(self):
-        with Recording(write(self.directory / "bare.h5", scene={**_bare()})) as run:
+        with Recording(write(self.directory / "bare.h5", scene=BARE)) as run:
             self.assertEqual(run.body_kinematics(0).shape, (0, 19))
             with self.assertRaisesRegex(RecordingError, "has no bodies"):
                 run.exchange()
         self.expect_error(plot, [self.directory / "bare.h5", "--bodies"], "has no bodies")
         self.expect_error(plot, [self.directory / "bare.h5", "--probes"], "has no probes")
-
-
-def _bare():
-    from written import SCENE
-
-    return {name: value for name, value in SCENE.items() if name not in ("body", "probe")}
 
 
 class PackageTest(Case):

@@ -1,4 +1,4 @@
-"""Small recordings, written by h5py as clients/recording/README.md describes the file, with values that tests can predict."""
+"""Small recordings, written by h5py as clients/recording/README.md describes them, with values that tests can predict."""
 
 import contextlib
 import csv
@@ -11,7 +11,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-GATE = {"name": "gate", "box": {"size": [0.1, 0.4]}, "position": [0.5, 0.2], "prescribed": {"constant": {"velocity": [0, 1]}}}
+UP = {"constant": {"velocity": [0, 1]}}
+GATE = {"name": "gate", "box": {"size": [0.1, 0.4]}, "position": [0.5, 0.2], "prescribed": UP}
 PROBES = [
     {"name": "floor", "point": {"position": [0.2, 0.0]}},
     {"name": "level", "surface": {"position": [0.2, 0.0]}},
@@ -45,7 +46,8 @@ class Values:
         self.parts = random.normal(size=(steps, 1, 12))
         self.probe = random.normal(size=(frames, 3, 6))
         self.probe[:, 1, 1] = np.arange(frames) % 2  # the level is known at odd frames
-        self.energy = {n: random.normal(size=frames) for n in ("kinetic", "potential", "elastic", "boundary_work", "max_speed")}
+        energies = ("kinetic", "potential", "elastic", "boundary_work", "max_speed")
+        self.energy = {name: random.normal(size=frames) for name in energies}
 
 
 def write(path, values=None, scene=None, finish=None):
