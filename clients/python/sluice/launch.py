@@ -75,6 +75,7 @@ def run(scene, output=None, settings=None, spacing=None, until=None, threads=Non
     tell = show or (lambda fraction: bar.show(fraction, f"{Path(scene).name} {100 * fraction:.0f} %"))
     try:
         if motion is not None:
+            _require_runnable([str(scene), *_settings(settings)], output, force)
             return _run_with(motion, options, output, force)
         return _run_alone(options, output, force, tell)
     finally:
@@ -118,6 +119,15 @@ def _reason(summary, said):
     return "; ".join(said[-3:]) or "sluice said nothing"
 
 
+def _require_runnable(scene, output, force):
+    """What `sluice run` looks at before it starts anything."""
+    checked = subprocess.run([program(), "check", *scene], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    if checked.returncode != 0:
+        raise RunError(checked.stderr.strip())
+    if output and Path(output).exists() and not force:
+        raise RunError(f"{output} exists; name another file, or replace it with force=True")
+
+
 def start(words, log):
     """One of the programs, with its output in a file."""
     return subprocess.Popen([program(), *words], stdout=log, stderr=log, stdin=subprocess.DEVNULL)
@@ -140,10 +150,9 @@ def _run_with(motion, options, output, force):
                 for process in processes:
                     process.terminate()
                     process.wait()
-            log.seek(0)
-            said = [line.strip() for line in log]
-        if any(codes):
-            raise RunError("; ".join(said[-3:]))
+            if any(codes):
+                log.seek(0)
+                raise RunError("; ".join(line.strip() for line in log.readlines()[-3:]))
     return {"status": "FINISHED", "exit_code": 0, "recording": {"path": str(output)} if output else None}
 
 

@@ -45,6 +45,26 @@ class RunTest(Case):
             time, kinematics, _ = run.exchange()
             np.testing.assert_allclose(kinematics[:, 0, 1], 1 + 0.1 * time**2, rtol=1e-12)
 
+    def test_nothing_is_started_for_a_motion_when_the_scene_is_wrong(self):
+        def move(endpoint):
+            self.fail("it was asked for a motion")
+
+        with self.assertRaisesRegex(sluice.RunError, "spacing: -1 m"):
+            sluice.run(self.scene, spacing=-1.0, motion=move)
+        taken = self.directory / "taken.h5"
+        taken.write_text("mine")
+        with self.assertRaisesRegex(sluice.RunError, "taken.h5 exists; .* force=True"):
+            sluice.run(self.scene, taken, motion=move)
+
+    def test_a_run_that_the_server_ends_fails_with_its_reason(self):
+        def move(endpoint):
+            with sluice.Participant(endpoint) as run:
+                (body,) = run.scene.body
+                run.drive({"gate": Function(body, lambda t: (-30 * t, -30 * t))})
+
+        with self.assertRaisesRegex(sluice.RunError, "UNSTABLE"):
+            sluice.run(self.scene, motion=move, threads=1)
+
     def test_a_run_whose_bodies_are_moved_here_fails_with_the_servers_reason(self):
         def move(endpoint):
             with sluice.Participant(endpoint) as run:
