@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import subprocess
 import sys
 
 import numpy as np
@@ -33,6 +34,9 @@ def run(name, action, argv):
         return DONE
     except (OSError, ValueError, KeyError) as error:
         problem = f"cannot read or write: {error}"
+    except subprocess.CalledProcessError as error:
+        print(f"[sluice-{name}] {error.cmd[0]} failed with exit code {error.returncode}", file=sys.stderr)
+        return FAILED
     print(f"[sluice-{name}] {problem}", file=sys.stderr)
     return BAD_INPUT
 

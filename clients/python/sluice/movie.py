@@ -28,7 +28,8 @@ def writer(output, fps):
         raise RecordingError(f"{output}: a movie ends in .mp4 or .gif")
     if shutil.which("ffmpeg") is None:
         raise RecordingError(f"{output}: ffmpeg, which makes MP4, is not installed; install Debian's ffmpeg or name a .gif")
-    options = ["-pix_fmt", "yuv420p", "-movflags", "+faststart"]
+    # Players want this pixel format, which wants an even number of pixels either way.
+    options = ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
     return animation.FFMpegWriter(fps=fps, codec="libx264", extra_args=options)
 
 
@@ -68,7 +69,7 @@ def film(run_, frames, options, output):
 
     shots = [(run_, frames[0], title(frames[0]))]
     sheet, (panel,) = picture.draw(
-        shots, lambda _: the_view, style, is_even=True, sampled=[(run_, frame) for frame in sampled(frames)]
+        shots, lambda _: the_view, style, sampled=[(run_, frame) for frame in sampled(frames)]
     )
     maker = writer(output, rate(run_, frames, options))
     bar = Bar()

@@ -174,7 +174,7 @@ def grid_shape(count, aspect):
 class Sheet:
     """A figure of one picture or several of the same size, with one colour bar."""
 
-    def __init__(self, count, corners, title="", is_even=False):
+    def __init__(self, count, corners, title=""):
         size = corners[1] - corners[0]
         aspect = float(np.clip(size[1] / size[0], LEAST_ASPECT, MOST_ASPECT))
         self.columns, self.rows = grid_shape(count, aspect)
@@ -188,8 +188,6 @@ class Sheet:
             LEFT + self.columns * self.width + between * (self.columns - 1) + RIGHT,
             BOTTOM + self.rows * self.height + GAP * (self.rows - 1) + top,
         ])
-        if is_even:  # pixels, as video wants them
-            inches = 2 * np.ceil(inches * DPI / 2) / DPI
         self.figure = Figure(figsize=inches, dpi=DPI)
         if title:
             self.figure.suptitle(title, fontsize=11, y=1 - 0.12 / inches[1], va="top")
@@ -212,7 +210,7 @@ class Sheet:
         bar.outline.set_visible(False)
 
 
-def draw(shots, view_of, style, title="", is_even=False, sampled=None, corners=None):
+def draw(shots, view_of, style, title="", sampled=None):
     """A sheet with a panel for every (run, frame, title) of `shots`, and its panels.
 
     `view_of` gives the view of a run. `sampled`, pairs of run and frame, are what colours and limits are found from; those
@@ -228,7 +226,7 @@ def draw(shots, view_of, style, title="", is_even=False, sampled=None, corners=N
     if style.limits:
         limits, extend = style.limits, extension(np.concatenate(samples), *style.limits)
     norm = Normalize(*limits)
-    sheet = Sheet(len(shots), corners, title, is_even)
+    sheet = Sheet(len(shots), corners, title)
     panels = []
     for number, (run, frame, text) in enumerate(shots):
         axes = sheet.axes(number)

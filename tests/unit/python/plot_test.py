@@ -1,5 +1,7 @@
 """Pictures are made of what they should be; one frame is read for a picture of one."""
 
+import shutil
+import unittest
 import xml.etree.ElementTree as ElementTree
 from unittest import mock
 
@@ -88,6 +90,14 @@ class PictureTest(Case):
         with Image.open(out) as made:
             self.assertEqual(made.n_frames, 4)
             self.assertEqual(made.info["duration"], 100)
+
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_a_movie_is_an_mp4_where_ffmpeg_is(self):
+        out = self.directory / "movie.mp4"
+        code, _, err = self.call(movie, self.path, "-o", out, "--scale", "0.37")
+        self.assertEqual(code, 0, err)
+        self.assertEqual(out.read_bytes()[4:8], b"ftyp")
 
 
 class LedgerTest(Case):
