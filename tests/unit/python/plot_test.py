@@ -91,7 +91,6 @@ class PictureTest(Case):
             self.assertEqual(made.n_frames, 4)
             self.assertEqual(made.info["duration"], 100)
 
-
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_a_movie_is_an_mp4_where_ffmpeg_is(self):
         out = self.directory / "movie.mp4"
