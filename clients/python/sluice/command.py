@@ -10,7 +10,6 @@ import numpy as np
 from sluice.recording import RecordingError
 
 DONE, BAD_INPUT, FAILED = 0, 1, 2
-INTERRUPTED = 130
 
 
 class Parser(argparse.ArgumentParser):
@@ -27,7 +26,7 @@ def run(name, action, argv):
     except RecordingError as error:
         problem = error
     except KeyboardInterrupt:
-        return INTERRUPTED
+        return FAILED
     except BrokenPipeError:
         # The reader of our output has had enough; Python must not complain of it when it closes stdout.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
