@@ -36,6 +36,11 @@ void add_wrenches(Message& message, std::string_view name, std::span<const fluid
   message.add_array<double>(name, rows, {wrenches.size(), kWrenchRow});
 }
 
+void add_probes(Message& message, const Simulation& simulation, std::span<const double> kinematics) {
+  const std::vector<double> rows = probe_rows(simulation, kinematics);
+  message.add_array<double>("probe", rows, {rows.size() / kProbeRow, kProbeRow});
+}
+
 void fill_energy(Energy& energy, const fluid::Diagnostics& diagnostics) {
   energy.set_kinetic(diagnostics.kinetic);
   energy.set_potential(diagnostics.potential);
@@ -71,6 +76,11 @@ Message welcome(const Simulation& simulation, const protocol::Endpoint& endpoint
   }
   if (role == RIGID) {
     add_wrenches(message, "wrenches", simulation.initial_wrenches);
+    if (simulation.scene.probe_size() > 0) {
+      std::vector<double> rows;
+      for (const fluid::Kinematics& body : simulation.bodies) append(rows, body);
+      add_probes(message, simulation, rows);
+    }
   } else {
     add_boundaries(message, simulation);
   }
@@ -90,8 +100,7 @@ Message frame(const Simulation& simulation, std::uint64_t step, std::span<const 
                             {kinematics.size() / kKinematicsRow, kKinematicsRow});
   add_wrenches(message, "body/wrench", simulation.solver->wrenches());
 
-  if (const auto probes = static_cast<std::size_t>(simulation.scene.probe_size()); probes > 0)
-    message.add_array<double>("probe", probe_rows(simulation, kinematics), {probes, kProbeRow});
+  if (simulation.scene.probe_size() > 0) add_probes(message, simulation, kinematics);
 
   Frame& content = *message.header.mutable_frame();
   content.set_index(step / simulation.clock.steps_per_interval());

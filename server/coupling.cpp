@@ -5,6 +5,7 @@
 
 #include "protocol/version.hpp"
 #include "server/content.hpp"
+#include "server/probes.hpp"
 
 namespace sluice::server {
 
@@ -98,10 +99,16 @@ void Coupling::answer(std::uint64_t step) {
   const std::span<const fluid::Wrench> wrenches = simulation_.solver->wrenches();
   if (options_.expect_recorder)
     log_.add(step, rows_, wrenches, simulation_.solver->wrench_parts(), exchange_.ledger());
-  if (std::optional<Message> reply = exchange_.answer(step, wrenches)) {
+  if (std::optional<Message> reply = exchange_.answer(step, wrenches, probes_for_participant(step))) {
     stamp(reply->header);
     session_.send(RIGID, std::move(*reply));
   }
+}
+
+std::vector<double> Coupling::probes_for_participant(std::uint64_t step) const {
+  const bool is_output = step % simulation_.clock.steps_per_interval() == 0;
+  if (!wants_probes_ || !is_output || step != exchange_.last_step()) return {};
+  return probe_rows(simulation_, rows_);
 }
 
 bool Coupling::repeats() {
@@ -207,7 +214,10 @@ void Coupling::dispatch(const Session::Inbound& inbound) {
   try {
     if (header.has_hello()) {
       // A rigid process in the place of one that went before the run began starts over.
-      if (inbound.role == RIGID) exchange_ = make_exchange(simulation_);
+      if (inbound.role == RIGID) {
+        exchange_ = make_exchange(simulation_);
+        wants_probes_ = header.hello().probes();
+      }
     } else if (inbound.role == RIGID && header.has_kinematics()) {
       std::optional<Message> reply = exchange_.accept(inbound.message);
       if (!reply) return;

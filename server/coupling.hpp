@@ -61,6 +61,8 @@ class Coupling {
   void record_log();
   void drain_recorder();
   void publish_status();
+  // What the probes measure, to who asked for it where the answer ends with an output; else nothing.
+  [[nodiscard]] std::vector<double> probes_for_participant(std::uint64_t step) const;
   // Adds run id, version and time to a message that does not go through the session.
   void stamp(Header& header) const;
 
@@ -69,6 +71,7 @@ class Coupling {
   Options options_;
   std::size_t bodies_;
   bool lock_step_, is_iterated_;
+  bool wants_probes_ = false;  // the rigid process, with its answers
   Session session_;
   Exchange exchange_;
   ExchangeLogger log_;

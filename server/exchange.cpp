@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "server/probes.hpp"
 #include "server/stop.hpp"
 
 namespace sluice::server {
@@ -197,26 +198,28 @@ std::span<const fluid::Kinematics> Exchange::kinematics(std::uint64_t step) {
   return current_;
 }
 
-std::optional<Message> Exchange::answer(std::uint64_t step, std::span<const fluid::Wrench> wrenches) {
+std::optional<Message> Exchange::answer(std::uint64_t step, std::span<const fluid::Wrench> wrenches,
+                                        std::span<const double> probes) {
   assert(has(step) && wrenches.size() == bodies_);
   Batch& batch = batches_.front();
   for (const fluid::Wrench& wrench : wrenches) append(batch.wrenches, wrench);
   if (step + 1 < batch.first_step + batch.count) return std::nullopt;
 
-  replies_.push_back(reply(batch));
+  replies_.push_back(reply(batch, probes));
   if (terms_.is_iterated) open_ = {batch.first_step, batch.count, batch.iteration};
   if (replies_.size() > kMostUnanswered) replies_.pop_front();
   batches_.pop_front();
   return replies_.back().clone();
 }
 
-Message Exchange::reply(const Batch& batch) const {
+Message Exchange::reply(const Batch& batch, std::span<const double> probes) const {
   Message message;
   message.header.set_sequence(batch.sequence);
   message.header.set_step(batch.first_step + batch.count - 1);
   message.header.mutable_wrenches()->set_first_step(batch.first_step);
   message.header.mutable_wrenches()->set_count(static_cast<std::uint32_t>(batch.count));
   message.add_array<double>("wrenches", batch.wrenches, {batch.count, bodies_, kWrenchRow});
+  if (!probes.empty()) message.add_array<double>("probe", probes, {probes.size() / kProbeRow, kProbeRow});
   return message;
 }
 

@@ -48,8 +48,10 @@ class Exchange {
   // The ledger that came with them; zeros where none did.
   [[nodiscard]] std::span<const double> ledger() const;
 
-  // Notes the fluid's action at the end of a step; the reply when it was the last of its message.
-  std::optional<protocol::Message> answer(std::uint64_t step, std::span<const fluid::Wrench> wrenches);
+  // Notes the fluid's action at the end of a step; the reply when it was the last of its message, with the
+  // probes' rows if there are any.
+  std::optional<protocol::Message> answer(std::uint64_t step, std::span<const fluid::Wrench> wrenches,
+                                          std::span<const double> probes = {});
 
   // Takes in an Accepted. Throws Refused where it is not that of the exchange answered last.
   void accept_exchange(const Accepted& accepted);
@@ -72,7 +74,7 @@ class Exchange {
   [[nodiscard]] std::uint64_t most_steps(const Kinematics& content) const;
   [[nodiscard]] std::vector<double> read_ledger(const protocol::Message& message) const;
   void check_rows(std::span<const double> rows, std::uint64_t first_step) const;
-  [[nodiscard]] protocol::Message reply(const Batch& batch) const;
+  [[nodiscard]] protocol::Message reply(const Batch& batch, std::span<const double> probes) const;
 
   std::size_t bodies_;
   std::uint64_t steps_;

@@ -15,6 +15,18 @@ function(sluice_test_of name label sources)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES LABELS ${label} TIMEOUT 600)
 endfunction()
 
+# The files *_test.py of a folder, a ctest each, run by the system's Python and unittest with the package of the build.
+function(sluice_python_tests label)
+  file(GLOB files CONFIGURE_DEPENDS *_test.py)
+  foreach(file ${files})
+    cmake_path(GET file STEM name)
+    add_test(NAME Python.${name} COMMAND /usr/bin/python3 -B -W error::ResourceWarning -m unittest -v ${name}
+             WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    set_tests_properties(Python.${name} PROPERTIES LABELS ${label} TIMEOUT 600 ENVIRONMENT
+      "PYTHONPATH=${CMAKE_BINARY_DIR}/lib/sluice/python;SLUICE_SOURCE=${CMAKE_SOURCE_DIR}")
+  endforeach()
+endfunction()
+
 # One program a folder, made of all its sources.
 function(sluice_test name label)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)

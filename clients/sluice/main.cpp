@@ -19,7 +19,7 @@
 namespace sluice::clients {
 namespace {
 
-// A command that another program does, with the same arguments.
+// A command that another program or Python module does, with the same arguments.
 struct Forwarded {
   const char* command;
   const char* program;
@@ -35,11 +35,26 @@ constexpr std::array kForwarded{
     Forwarded{"bench", "sluice-bench", "Measure errors against run time: accuracy"},
 };
 
+constexpr std::array kPython{
+    Forwarded{"plot", "sluice.plot",
+              "Draw recordings: fields, bodies, probes, energies, ledgers: RUN.h5 -o PICTURE.png"},
+    Forwarded{"movie", "sluice.movie", "Make a movie of a recording: RUN.h5 -o MOVIE.gif"},
+    Forwarded{"export", "sluice.export",
+              "Write a recording for ParaView or as tables: RUN.h5 --to vtk|csv DIR"},
+    Forwarded{"diff", "sluice.diff", "Say how far two recordings are apart: A.h5 B.h5"},
+};
+
 // Everything after the command belongs to the other program, --help included.
 CLI::App* add_forwarding(CLI::App& app, const char* command, const char* what) {
   CLI::App* sub = app.add_subcommand(command, what);
   sub->prefix_command()->set_help_flag();
   return sub;
+}
+
+[[noreturn]] void become_module(const std::string& module, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{"-m", module};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  become_python(std::move(words));
 }
 
 void add_scene(CLI::App& command, CheckOptions& options) {
@@ -107,8 +122,9 @@ int front_end(int argc, char** argv) {
   CLI::App* inspect_command = app.add_subcommand("inspect", "Say what is in a recording");
   inspect_command->add_option("recording", recording, "RUN.h5")->required();
   inspect_command->add_flag("--json", json, "Print one JSON object");
-  CLI::App* plot_command =
-      add_forwarding(app, "plot", "Draw the particles of a recording: RUN.h5 -o PICTURE.png");
+  for (const Forwarded& python : kPython) add_forwarding(app, python.command, python.what);
+  CLI::App* python_command =
+      add_forwarding(app, "python", "Run a Python program with the package sluice: PROGRAM.py ...");
   CLI::App* keygen_command = app.add_subcommand("keygen", "Make CURVE keys for a server and a client");
   keygen_command->add_option("directory", key_directory, "DIR")->required();
 
@@ -121,7 +137,10 @@ int front_end(int argc, char** argv) {
   for (const Forwarded& forwarded : kForwarded)
     if (const CLI::App* command = app.get_subcommand(forwarded.command); command->parsed())
       become(sibling(forwarded.program), command->remaining());
-  if (plot_command->parsed()) become_python("sluice.plot", plot_command->remaining());
+  for (const Forwarded& python : kPython)
+    if (const CLI::App* command = app.get_subcommand(python.command); command->parsed())
+      become_module(python.program, command->remaining());
+  if (python_command->parsed()) become_python(python_command->remaining());
   if (run_command->parsed()) return run(run_options);
   if (check_command->parsed()) return check(check_options);
   if (keygen_command->parsed()) return make_keys(key_directory);

@@ -38,15 +38,13 @@ void become(const std::filesystem::path& program, std::vector<std::string> argum
   throw std::system_error(errno, std::generic_category(), "cannot start " + path);
 }
 
-void become_python(const std::string& module, const std::vector<std::string>& arguments) {
+void become_python(std::vector<std::string> arguments) {
   // Debian's modules (h5py, matplotlib) belong to this interpreter, not to another first in PATH.
   const std::filesystem::path interpreter = "/usr/bin/python3";
   std::string path = python_directory().string();
   if (const char* before = std::getenv("PYTHONPATH"); before && *before) path += std::string(":") + before;
   setenv("PYTHONPATH", path.c_str(), 1);
-  std::vector<std::string> words{"-m", module};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  become(interpreter, std::move(words));
+  become(interpreter, std::move(arguments));
 }
 
 }  // namespace sluice::clients

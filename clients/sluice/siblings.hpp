@@ -15,7 +15,7 @@ std::filesystem::path python_directory();
 // Replaces this process by the program. Returns only by an exception.
 [[noreturn]] void become(const std::filesystem::path& program, std::vector<std::string> arguments);
 
-// Replaces this process by `/usr/bin/python3 -m module arguments...`, with the package on its path.
-[[noreturn]] void become_python(const std::string& module, const std::vector<std::string>& arguments);
+// Replaces this process by `/usr/bin/python3 arguments...`, with the package on its path.
+[[noreturn]] void become_python(std::vector<std::string> arguments);
 
 }  // namespace sluice::clients

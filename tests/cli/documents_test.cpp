@@ -35,6 +35,8 @@ constexpr const char* kQuickSluice = R"(#!/bin/sh
 case "$*" in
   replay*|check*) exec {0}/sluice "$@" ;;
   *rising_gate.scene*) exec {0}/sluice "$@" --set spacing=0.004 ;;
+  python*hold_level.py*) exec {0}/sluice "$@" --spacing 0.02 --until 0.5 ;;
+  python*sweep_density.py*) exec {0}/sluice "$@" --spacing 0.022 --until 0.05 ;;
   *) exec {0}/sluice "$@" ;;
 esac
 )";
@@ -96,6 +98,7 @@ TEST_P(Document, ItsScenesPassTheCheck) {
 INSTANTIATE_TEST_SUITE_P(Cli, Document,
                          testing::Values(Page{"Front", "README.md", 4},
                                          Page{"Clients", "clients/README.md", 4},
+                                         Page{"Tutorial", "clients/TUTORIAL.md", 6},
                                          Page{"Benchmark", "tests/benchmark/README.md", 1}),
                          [](const auto& document) { return document.param.name; });
 

@@ -9,8 +9,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-const std::vector<std::string> kCommands{"run",   "check",  "serve",   "rigid", "record",
-                                         "watch", "replay", "inspect", "plot",  "keygen"};
+const std::vector<std::string> kCommands{"run",     "check", "serve", "rigid",  "record", "watch",  "replay",
+                                         "inspect", "plot",  "movie", "export", "diff",   "python", "keygen"};
 
 TEST(Help, NamesEveryCommand) {
   const TemporaryDirectory directory;

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "tests/coupling/test_server.hpp"
@@ -47,6 +48,41 @@ TEST_F(ExchangeTest, StepsInLockStepWithAFreeBody) {
     EXPECT_EQ(server_->script.stepped[n - 1].at(0).position.x(), static_cast<double>(n));
     EXPECT_EQ(wrenches[6 * (n - 1)], static_cast<double>(n));
   }
+}
+
+// Forces on the gate and its moment about the origin, from a force probe.
+Scene probed_gate() {
+  Scene scene = gate();
+  scene.MergeFrom(parse_scene(R"(probe { name: "load" force { body: "gate" } })"));
+  return scene;
+}
+
+bool has_probes(const Message& message) {
+  const auto& arrays = message.header.array();
+  return std::any_of(arrays.begin(), arrays.end(), [](const Array& a) { return a.name() == "probe"; });
+}
+
+TEST_F(ExchangeTest, ProbesComeWithTheAnswerThatEndsWithAnOutputToWhoAskedForThem) {
+  server_ = std::make_unique<TestServer>(probed_gate());
+  rigid_ = std::make_unique<Peer>(server_->endpoint());
+  const Message welcome = rigid_->hello(RIGID, true);
+  EXPECT_EQ(welcome.shape("probe"), (std::vector<std::uint64_t>{1, 6}));
+  EXPECT_EQ(welcome.array<double>("probe")[0], 0.0);
+  for (std::uint64_t step = 1; step <= 20; ++step) {
+    const Message answer = ask(kinematics(step, step, 1));
+    ASSERT_EQ(has_probes(answer), step % 10 == 0) << step;
+    if (step % 10 == 0) {
+      EXPECT_EQ(answer.array<double>("probe")[0], static_cast<double>(step));
+    }
+  }
+  // The same again is the same answer, probes and all.
+  EXPECT_TRUE(has_probes(ask(kinematics(20, 20, 1))));
+}
+
+TEST_F(ExchangeTest, WithoutAskingNoProbesCome) {
+  join(probed_gate());
+  for (std::uint64_t step = 1; step <= 10; ++step)
+    EXPECT_FALSE(has_probes(ask(kinematics(step, step, 1)))) << step;
 }
 
 TEST_F(ExchangeTest, StartsTheSolverWithTheScenesPosesAndVelocities) {

@@ -1,5 +1,8 @@
-// A participant in Python moves the bodies as `sluice rigid` does.
+// A participant in Python moves the bodies as `sluice rigid` does; the examples do what they say.
+#include <gmock/gmock.h>
+
 #include <cmath>
+#include <regex>
 
 #include "tests/end_to_end/recorded_run.hpp"
 
@@ -49,6 +52,40 @@ TEST_F(PythonParticipant, LiftsAGateByWhatTheWaterDoes) {
   const clients::Reader live = read("live.h5");
   const auto last = live.exchange_log(live.exchanges(), 1);
   EXPECT_GT(last.array<double>("kinematics")[1], 0.06 + 0.02);
+}
+
+class PythonExample : public RecordedRun {
+ protected:
+  // Runs an example with the package of the build; what it printed.
+  std::string example(const std::string& words) const {
+    const std::string source = SLUICE_SOURCE, bin = SLUICE_BIN;
+    return script("PYTHONPATH=" + bin + "/../lib/sluice/python /usr/bin/python3 -B " + source +
+                  "/clients/examples/" + words);
+  }
+};
+
+// Shut, the gate leaves the channel at the 0.12 m of its weir; open, it lets it rise to the reservoir's.
+TEST_F(PythonExample, AControllerHoldsTheLevel) {
+  example("hold_level.py level.h5 --spacing 0.02");
+  const clients::Reader level = read("level.h5");
+  double sum = 0;
+  std::uint64_t count = 0;
+  for (std::uint64_t frame = level.frames() * 6 / 10; frame < level.frames(); ++frame, ++count)
+    sum += level.frame(frame).array<double>("probe")[6];
+  EXPECT_NEAR(sum / static_cast<double>(count), 0.15, 0.01);
+  EXPECT_THAT(redrive("level.h5", "1").out, testing::HasSubstr("identical"));
+}
+
+TEST_F(PythonExample, ASweepIsATableAndAPicture) {
+  const std::string table = example("sweep_density.py depth.png --spacing 0.022 --until 0.2");
+  const std::regex row(R"((\d+) +FINISHED .* ([0-9.]+) +([0-9.]+)\n)");
+  std::vector<double> deepest;
+  for (std::sregex_iterator match(table.begin(), table.end(), row), end; match != end; ++match)
+    deepest.push_back(std::stod((*match)[2]));
+  ASSERT_EQ(deepest.size(), 3u) << table;
+  EXPECT_GT(deepest[0], deepest[1]);  // the lighter, the less deep
+  EXPECT_GT(deepest[1], deepest[2]);
+  EXPECT_EQ(bytes("depth.png").substr(1, 3), "PNG");
 }
 
 }  // namespace

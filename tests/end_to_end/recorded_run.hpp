@@ -23,10 +23,15 @@ class RecordedRun : public testing::Test {
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
 
-  // A shell script with the programs in its path; fails the test when it does not end well.
-  void script(const std::string& text) const {
+  // A shell script with the programs in its path; what it printed. Fails the test when it does not end well.
+  std::string script(const std::string& text) const {
     const Outcome outcome = run_script(text, directory_.path(), SLUICE_BIN);
-    ASSERT_EQ(outcome.code, 0) << outcome.out;
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    return outcome.out;
+  }
+
+  [[nodiscard]] std::string bytes(const std::string& file) const {
+    return read_text(directory_.path() / file);
   }
 
   [[nodiscard]] Outcome redrive(const std::string& recording, const std::string& threads) const {

@@ -1,5 +1,20 @@
-"""Recordings of sluice runs: open them as NumPy arrays, draw them."""
+"""Runs of sluice from Python: launch and sweep scenes, move their bodies, follow them, open and draw recordings.
 
-from sluice.recording import Recording, RecordingError
+What needs more than the standard library is imported when it is asked for, so that a participant needs no HDF5 and a
+reader of recordings no ZeroMQ.
+"""
 
-__all__ = ["Recording", "RecordingError"]
+from importlib import import_module
+
+_HOMES = {
+    "Recording": "recording", "RecordingError": "recording", "Participant": "participant", "Watcher": "watcher",
+    "State": "watcher", "Status": "watcher", "run": "launch", "sweep": "launch", "RunError": "launch",
+    "write_table": "launch", "table_text": "launch",
+}
+__all__ = list(_HOMES)
+
+
+def __getattr__(name):
+    if name not in _HOMES:
+        raise AttributeError(f"module 'sluice' has no attribute {name!r}")
+    return getattr(import_module(f"sluice.{_HOMES[name]}"), name)

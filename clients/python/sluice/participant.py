@@ -4,65 +4,45 @@ import numpy as np
 import zmq
 
 import messages_pb2 as messages
+from sluice import probes
+from sluice.link import Clock, Ended, Link
 
-PROTOCOL_VERSION = 1
-PATIENCE = 10_000  # [ms] with a silent server
-
-
-class Ended(Exception):
-    """The run is over; `end` says why (messages.proto, End)."""
-
-    def __init__(self, end):
-        super().__init__(f"{messages.End.Reason.Name(end.reason)} {end.detail}".strip())
-        self.end = end
-
-
-class Clock:
-    """Times of the steps [ns]: whole, and the same in every process."""
-
-    def __init__(self, welcome):
-        self.steps = welcome.steps
-        self._interval, self._per_interval = welcome.interval_ns, welcome.steps_per_interval
-
-    def time_ns(self, step):
-        whole, part = divmod(step, self._per_interval)
-        return whole * self._interval + part * self._interval // self._per_interval
-
-    def time(self, step):
-        """End of a step [s]."""
-        return 1e-9 * self.time_ns(step)
-
-    def duration(self, step):
-        """[s]"""
-        return 1e-9 * (self.time_ns(step) - self.time_ns(step - 1))
+__all__ = ["Clock", "Ended", "Participant"]
 
 
 class Participant:
-    """The connection: greets, sends kinematics, gives wrenches.
+    """The connection: greets, sends kinematics, gives wrenches and what the probes measure.
 
     `scene` is the run's scene (scene.proto), `clock` its Clock, `wrenches` [bodies, 6] the fluid's force [N] and
     moment about the centre of mass [N m] on every body at the last step answered, at time 0 to begin with.
     """
 
-    def __init__(self, endpoint, program="python"):
+    def __init__(self, endpoint, program="python", keys=None):
         self._context = zmq.Context()
-        self._socket = self._context.socket(zmq.DEALER)
-        self._socket.setsockopt(zmq.LINGER, 1000)
-        self._socket.connect(endpoint)
-        self._run_id, self._token, self._sequence = "", 0, 0
-        hello = messages.Header()
-        hello.hello.role, hello.hello.program = messages.RIGID, program
-        self._send(hello)
-        answer, arrays = self._receive()
-        self._run_id, self._token = answer.run_id, answer.session_token
-        self.scene, self.clock = answer.welcome.scene, Clock(answer.welcome)
-        self.wrenches = arrays["wrenches"]
+        self._sequence = 0
+        try:
+            hello = messages.Hello(role=messages.RIGID, program=program, probes=True)
+            self._link = Link(self._context, endpoint, hello, keys)
+        except BaseException:
+            self._context.destroy(linger=0)
+            raise
+        self.scene, self.clock = self._link.welcome.scene, Clock(self._link.welcome)
+        self.wrenches = self._link.arrays["wrenches"]
+        self._probes = self._link.arrays.get("probe")
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
         self._context.destroy(linger=1000)
+
+    def probe(self, name):
+        """What a probe measured at the last output, by column (probes.COLUMNS): `run.probe("level")["height"]` [m]."""
+        names = [entry.name for entry in self.scene.probe]
+        if name not in names:
+            raise KeyError(f"the scene has no probe {name!r}; its probes: {', '.join(names) or 'none'}")
+        number = names.index(name)
+        return probes.columns(self.scene.probe[number].WhichOneof("kind"), self._probes[number])
 
     def step(self, step, kinematics):
         """Sends the bodies' motion over one step, a row [19] a body (messages.proto, Kinematics); the wrenches at its end.
@@ -74,35 +54,35 @@ class Participant:
         header = messages.Header(sequence=self._sequence, step=step, time_ns=self.clock.time_ns(step))
         header.kinematics.first_step, header.kinematics.count = step, 1
         header.array.add(name="kinematics", type=messages.Array.FLOAT64, shape=rows.shape)
-        self._send(header, rows.tobytes())
-        _, arrays = self._receive()
+        self._link.send(header, rows.tobytes())
+        _, arrays = self._link.receive()
         self.wrenches = arrays["wrenches"][0]
+        self._probes = arrays.get("probe", self._probes)
         return self.wrenches
+
+    def drive(self, motions, control=None):
+        """Moves all bodies through the whole run, or until the server ends it; its End, which says why.
+
+        `motions` has for every body's name an object with row(step, clock), its kinematics [19] over a step, asked for in
+        order (sluice.motion). `control(run, time)` is called at time 0 and at every output, when the probes are fresh, and
+        may change what the motions do from then on.
+        """
+        names = [body.name for body in self.scene.body]
+        if sorted(motions) != sorted(names):
+            raise ValueError(f"there are motions for {sorted(motions)}, the scene's bodies are {names}; give one for each")
+        try:
+            for step in range(1, self.clock.steps + 1):
+                if control and (step - 1) % self.clock.steps_per_output == 0:
+                    control(self, self.clock.time(step - 1))
+                self.step(step, [motions[name].row(step, self.clock) for name in names])
+        except Ended as ended:
+            return ended.end
+        return self.wait_for_end()
 
     def wait_for_end(self):
         """The server's End, after the last step."""
         try:
-            self._receive()
+            self._link.receive()
         except Ended as ended:
             return ended.end
         raise RuntimeError("the server went on after the last step")
-
-    def _send(self, header, *arrays):
-        header.protocol_version = PROTOCOL_VERSION
-        header.run_id, header.session_token = self._run_id, self._token
-        self._socket.send_multipart([header.SerializeToString(), *arrays])
-
-    def _receive(self):
-        while True:
-            if not self._socket.poll(PATIENCE):
-                raise TimeoutError(f"no message from the server for {PATIENCE // 1000} s")
-            first, *frames = self._socket.recv_multipart()
-            header = messages.Header.FromString(first)
-            content = header.WhichOneof("content")
-            if content == "refusal":
-                raise RuntimeError(header.refusal.reason)
-            if content == "end":
-                raise Ended(header.end)
-            if content != "heartbeat":
-                arrays = zip(header.array, frames)
-                return header, {a.name: np.frombuffer(raw, "<f8").reshape(a.shape) for a, raw in arrays}

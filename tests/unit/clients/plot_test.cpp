@@ -18,17 +18,21 @@ struct Ended {
   std::string output;
 };
 
-// Runs the package of the source tree under the system's Python.
-Ended plot(const std::string& arguments) {
+// Runs a module of the package in the source tree under the system's Python.
+Ended python(const std::string& module, const std::string& arguments) {
   const std::string command = "PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=" SLUICE_SOURCE
-                              "/clients/python /usr/bin/python3 -m sluice.plot " +
-                              arguments + " 2>&1";
+                              "/clients/python /usr/bin/python3 -m sluice." +
+                              module + " " + arguments + " 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   Ended ended{};
   char buffer[256];
   while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) ended.output += buffer;
   ended.code = WEXITSTATUS(pclose(pipe));
   return ended;
+}
+
+Ended plot(const std::string& arguments) {
+  return python("plot", arguments);
 }
 
 class PlotTest : public testing::Test {
@@ -52,6 +56,29 @@ TEST_F(PlotTest, DrawsParticlesAtOneTimeAndAtSeveral) {
 TEST_F(PlotTest, DrawsBodiesAndEnergies) {
   expect_picture("--bodies");
   expect_picture("--energy");
+}
+
+TEST_F(PlotTest, MoviesAndExportsAreMade) {
+  const std::string run = directory_ / "run.h5", out = directory_ / "out";
+  EXPECT_EQ(python("movie", run + " -o " + out + ".gif --every 10").code, 0);
+  EXPECT_EQ(bytes_of(out + ".gif").substr(0, 3), "GIF");
+  EXPECT_EQ(python("export", run + " --to vtk " + out).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(out + "/fluid.pvd"));
+  EXPECT_TRUE(std::filesystem::exists(out + "/bodies_00020.vtp"));
+  EXPECT_EQ(python("export", run + " --to csv " + out).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(out + "/body_body1.csv"));
+}
+
+TEST_F(PlotTest, ARecordingIsIdenticalToItsLikeAlone) {
+  record(FakeRun{.bodies = 2}, directory_ / "again.h5");
+  record(FakeRun{.bodies = 2, .frames = 12}, directory_ / "shorter.h5");
+  const std::string run = directory_ / "run.h5";
+  const Ended same = python("diff", run + " " + (directory_ / "again.h5").string());
+  EXPECT_EQ(same.code, 0);
+  EXPECT_THAT(same.output, HasSubstr("identical at 21 common times"));
+  const Ended shorter = python("diff", run + " " + (directory_ / "shorter.h5").string());
+  EXPECT_EQ(shorter.code, 0);
+  EXPECT_THAT(shorter.output, HasSubstr("identical at 13 common times of 21 and 13"));
 }
 
 TEST_F(PlotTest, SaysInOneLineWhatIsWrong) {

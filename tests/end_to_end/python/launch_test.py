@@ -1,0 +1,123 @@
+"""Runs and sweeps from Python: what they return, what they record, and how they fail."""
+
+import json
+import subprocess
+import unittest
+
+import numpy as np
+import sluice
+from scenes import SOURCE, Case
+from sluice.launch import program
+from sluice.ledger import ledgers
+from sluice.motion import Function
+
+
+class RunTest(Case):
+    def test_returns_the_summary_and_tells_the_progress(self):
+        told = []
+        summary = sluice.run(self.scene, self.directory / "run.h5", until=0.05, threads=1, show=told.append)
+        self.assertEqual(summary["status"], "FINISHED")
+        self.assertEqual(summary["fluid_particles"], 50)
+        self.assertEqual(told[-1], 1.0)
+        with sluice.Recording(self.directory / "run.h5") as run:
+            self.assertEqual(run.frames, 6)
+
+    def test_settings_change_the_scene(self):
+        summary = sluice.run(self.scene, spacing=0.05, settings={"gravity": [0, -1.62]}, until=0.01, threads=1)
+        self.assertEqual(summary["fluid_particles"], 200)
+        self.assertAlmostEqual(summary["energy"]["start"]["potential"] / (1000 * 0.5 * 1.62 * 0.25), 1, delta=0.02)
+
+    def test_bad_input_is_told_and_starts_nothing(self):
+        with self.assertRaisesRegex(sluice.RunError, "spacing: -1 m"):
+            sluice.run(self.scene, self.directory / "run.h5", spacing=-1.0)
+        self.assertFalse((self.directory / "run.h5").exists())
+        with self.assertRaisesRegex(sluice.RunError, "absent.scene"):
+            sluice.run(self.directory / "absent.scene")
+
+    def test_a_function_moves_a_gate(self):
+        def move(endpoint):
+            with sluice.Participant(endpoint) as run:
+                (body,) = run.scene.body
+                run.drive({"gate": Function(body, lambda t: (0, 0.1 * t * t))})
+
+        sluice.run(self.scene, self.directory / "run.h5", until=0.1, threads=1, motion=move)
+        with sluice.Recording(self.directory / "run.h5") as run:
+            time, kinematics, _ = run.exchange()
+            np.testing.assert_allclose(kinematics[:, 0, 1], 1 + 0.1 * time**2, rtol=1e-12)
+
+    def test_nothing_is_started_for_a_motion_when_the_scene_is_wrong(self):
+        def move(endpoint):
+            self.fail("it was asked for a motion")
+
+        with self.assertRaisesRegex(sluice.RunError, "spacing: -1 m"):
+            sluice.run(self.scene, spacing=-1.0, motion=move)
+        taken = self.directory / "taken.h5"
+        taken.write_text("mine")
+        with self.assertRaisesRegex(sluice.RunError, "taken.h5 exists; .* force=True"):
+            sluice.run(self.scene, taken, motion=move)
+
+    def test_a_run_that_the_server_ends_fails_with_its_reason(self):
+        def move(endpoint):
+            with sluice.Participant(endpoint) as run:
+                (body,) = run.scene.body
+                run.drive({"gate": Function(body, lambda t: (-30 * t, -30 * t))})
+
+        with self.assertRaisesRegex(sluice.RunError, "UNSTABLE"):
+            sluice.run(self.scene, motion=move, threads=1)
+
+    def test_a_run_whose_bodies_are_moved_here_fails_with_the_servers_reason(self):
+        def move(endpoint):
+            with sluice.Participant(endpoint) as run:
+                run.step(1, np.full((1, 19), np.nan))
+
+        with self.assertRaisesRegex(Exception, "kinematics of body 0 at step 1: entry 0 is nan"):
+            sluice.run(self.scene, until=0.1, threads=1, motion=move)
+
+
+class LedgerTest(Case):
+    def test_is_that_of_inspect(self):
+        scene = SOURCE / "clients/scenes/falling_cylinder.scene"
+        path = self.directory / "run.h5"
+        sluice.run(scene, path, spacing=0.022, until=0.1, threads=1)
+        inspected = subprocess.run([program(), "inspect", path, "--json"], check=True, capture_output=True)
+        (expected,) = json.loads(inspected.stdout)["ledger"]
+        with sluice.Recording(path) as run:
+            (cylinder,) = ledgers(run)
+        self.assertAlmostEqual(cylinder.time[-1], expected["time"], places=12)
+        self.assertEqual(set(cylinder.impulses), set(expected["impulse"]))
+        for name, values in cylinder.impulses.items():
+            np.testing.assert_allclose(values[-1, :3], expected["impulse"][name]["force"], rtol=1e-9, atol=1e-12)
+            np.testing.assert_allclose(values[-1, 3:], expected["impulse"][name]["moment"], rtol=1e-9, atol=1e-12)
+        np.testing.assert_allclose(cylinder.momentum[-1], expected["momentum_change"], rtol=1e-12)
+        self.assertAlmostEqual(cylinder.work[-1] / expected["work_of_liquid"], 1, places=9)
+        self.assertLess(cylinder.residual.max(), 1e-9)
+
+
+class SweepTest(Case):
+    def measure(self, recording):
+        return {"particles": recording.particles, "frames": recording.frames}
+
+    def test_is_a_table_of_all_combinations(self):
+        values = {"spacing": [0.1, 0.05], "liquid.density": [900.0, 1000.0]}
+        table = sluice.sweep(self.scene, values, self.measure, at_once=2, until=0.02)
+        settings = [(row["spacing"], row["liquid.density"]) for row in table]
+        self.assertEqual(settings, [(0.1, 900.0), (0.1, 1000.0), (0.05, 900.0), (0.05, 1000.0)])
+        self.assertEqual([row["particles"] for row in table], [50, 50, 200, 200])
+        self.assertEqual({row["status"] for row in table}, {"FINISHED"})
+        self.assertEqual({row["recording"] for row in table}, {None})
+
+    def test_a_run_that_fails_is_a_row_that_says_why(self):
+        kept = self.directory / "runs"
+        table = sluice.sweep(self.scene, [{"spacing": 0.1}, {"spacing": -1.0}], self.measure, directory=kept, until=0.02)
+        self.assertEqual([row["status"] for row in table], ["FINISHED", "BAD_INPUT"])
+        self.assertIn("spacing", table[1]["detail"])
+        self.assertNotIn("frames", table[1])
+        self.assertEqual(table[0]["recording"], str(kept / "run_0.h5"))
+        sluice.write_table(table, self.directory / "table.csv")
+        lines = (self.directory / "table.csv").read_text().splitlines()
+        self.assertEqual(len(lines), 3)
+        self.assertTrue(lines[0].startswith("spacing,status,detail"))
+
+
+if __name__ == "__main__":
+    unittest.main()
