@@ -33,6 +33,8 @@ class GalerkinSolver final : public Solver {
 
   void save() override;
   void restore() override;
+  [[nodiscard]] std::vector<std::byte> write_state() override;
+  void read_state(std::span<const std::byte> bytes) override;
 
   [[nodiscard]] std::span<const Wrench> wrenches() const override;
   [[nodiscard]] std::vector<WrenchParts> wrench_parts() const override;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "fluid/particles.hpp"
@@ -34,6 +35,8 @@ class Halo {
   // Copies to the images what moved, and what sweep 1 and the stress left.
   void refresh_nodes(Particles<Dim>& fluid) const;
   void refresh_sources(Particles<Dim>& fluid) const;
+
+  auto state() { return std::tie(image_); }
 
  private:
   struct Image {

@@ -4,7 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "clients/record/connection.hpp"
-#include "clients/recording/writer.hpp"
+#include "clients/recording/continuation.hpp"
 #include "clients/recording/xdmf.hpp"
 #include "protocol/framing.hpp"
 
@@ -32,9 +32,17 @@ class Recorder {
         stream_(protocol::make_socket(context_, zmq::socket_type::pull)) {}
 
   RecordOutcome run() {
-    OutputFile output(options_.output, options_.force);
-    connection_.greet(RECORDER, "sluice-record");
-    writer_.emplace(std::move(output), wait_for_welcome());
+    if (options_.resume.empty()) {
+      OutputFile output(options_.output, options_.force);
+      connection_.greet(RECORDER, "sluice-record");
+      const Message welcome = wait_for_welcome();
+      require_start(welcome.header.welcome());
+      writer_.emplace(std::move(output), welcome);
+    } else {
+      connection_.greet(RECORDER, "sluice-record");
+      writer_.emplace(
+          continue_recording(options_.resume, options_.output, options_.force, wait_for_welcome()));
+    }
     connect_stream();
     spdlog::info("recording run {} to {}", connection_.run_id(), options_.output.string());
     try {
@@ -62,6 +70,12 @@ class Recorder {
       }
       connection_.watch(options_.patience);
     }
+  }
+
+  static void require_start(const Welcome& welcome) {
+    if (welcome.done() == 0) return;
+    throw protocol::InputError(fmt::format(
+        "the run goes on after step {}; name its recording so far with --resume", welcome.done()));
   }
 
   // Only now: what the server pushes goes to whoever is connected, also to a recorder that it refuses.
