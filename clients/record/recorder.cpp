@@ -40,8 +40,7 @@ class Recorder {
       writer_.emplace(std::move(output), welcome);
     } else {
       connection_.greet(RECORDER, "sluice-record");
-      writer_.emplace(
-          continue_recording(options_.resume, options_.output, options_.force, wait_for_welcome()));
+      continuation_.emplace(options_.resume, options_.output, options_.force, wait_for_welcome());
     }
     connect_stream();
     spdlog::info("recording run {} to {}", connection_.run_id(), options_.output.string());
@@ -109,7 +108,7 @@ class Recorder {
       finish(End::Reason_Name(end_->reason()), end_->detail(), end_->wall_seconds());
       outcome_.complete = true;
     } else {
-      writer_->flush();
+      writer().flush();
     }
     Message acknowledgement;
     acknowledgement.header.mutable_acknowledgement()->set_sequence(sequence_);
@@ -127,7 +126,8 @@ class Recorder {
     if (header.has_end()) {
       end_ = header.end();
     } else {
-      writer_->write(message);
+      if (continuation_) continuation_->take_place();
+      writer().write(message);
     }
     sequence_ = header.sequence();
   }
@@ -143,15 +143,18 @@ class Recorder {
   }
 
   void finish(const std::string& reason, const std::string& detail, double wall_seconds = 0) {
-    writer_->finish(reason, detail, wall_seconds);
+    outcome_.reason = reason;
+    outcome_.detail = detail;
+    if (continuation_ && !continuation_->is_in_place()) return continuation_->abandon();
+    writer().finish(reason, detail, wall_seconds);
     try {
       write_xdmf(options_.output);
     } catch (const std::exception& error) {
       spdlog::warn("the recording has no companion for ParaView: {}", error.what());
     }
-    outcome_.reason = reason;
-    outcome_.detail = detail;
   }
+
+  Writer& writer() { return continuation_ ? continuation_->writer() : *writer_; }
 
   const RecordOptions& options_;
   const std::atomic<bool>& stop_;
@@ -159,7 +162,9 @@ class Recorder {
   zmq::context_t context_;
   Connection connection_;
   zmq::socket_t stream_;
+  // One of the two.
   std::optional<Writer> writer_;
+  std::optional<Continuation> continuation_;
   std::optional<End> end_;
   std::uint64_t sequence_ = 0;
   RecordOutcome outcome_;

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <optional>
 
+#include "clients/recording/continuation.hpp"
 #include "clients/recording/output_file.hpp"
 #include "clients/sluice/check.hpp"
 #include "clients/sluice/endpoints.hpp"
@@ -93,6 +94,8 @@ void choose_recordings(const Checkpoint& checkpoint, RunOptions& options) {
                     options.recording.string()));
   if (is_being_written(options.recording))
     throw protocol::InputError(options.recording.string() + " is still being written; stop that run first");
+  require_reaches(Reader(options.recording), checkpoint.run_id(), checkpoint.step(),
+                  checkpoint.steps_per_interval());
   if (options.output != options.recording) const OutputFile trial(options.output, options.force);
 }
 
