@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -76,6 +77,9 @@ class Descriptor {
     }
     return true;
   }
+  void rewind() {
+    if (lseek(descriptor_, 0, SEEK_SET) != 0) fail("read");
+  }
   [[nodiscard]] std::uint64_t size() const {
     struct stat status {};
     if (fstat(descriptor_, &status) != 0) fail("read");
@@ -96,38 +100,54 @@ class Descriptor {
   int descriptor_;
 };
 
-// Reads what it checks; nothing is believed before the checksum of all has been seen to fit.
+// Nothing but signature and format is believed before the checksum of all has been seen to fit.
 class Reading {
  public:
   explicit Reading(const fs::path& path)
       : path_(path), file_(path, O_RDONLY | O_NONBLOCK), left_(file_.size()) {}
 
   CheckpointFile all() {
-    std::string signature(kSignature.size(), '\0');
-    if (left_ < signature.size()) not_one();
-    take(signature.data(), signature.size());
-    if (signature != kSignature) not_one();
-    Preamble preamble{};
-    take(&preamble, sizeof preamble);
-    if (preamble.format != kFormat)
-      throw InputError(fmt::format(
-          "{} is a checkpoint of format {}, this program reads format {}; use the sluice that wrote it",
-          path_.string(), preamble.format, kFormat));
+    const std::uint64_t size = left_;
+    const Preamble preamble = read_start();
+    check_sum();
+    file_.rewind();
+    left_ = size - sizeof(std::uint64_t);  // the checksum
+    (void)read_start();
     CheckpointFile file;
     std::string header;
     take(header, preamble.header_bytes);
     if (!file.header.ParseFromString(header)) damaged("its header is no message");
     take(file.fluid, file.header.fluid_bytes());
     take(file.rigid, file.header.rigid_numbers());
-    const std::uint64_t expected = sum_.value();
-    std::uint64_t recorded = 0;
-    take(&recorded, sizeof recorded);
-    if (recorded != expected) damaged("its checksum does not fit");
-    if (left_ > 0) damaged(fmt::format("{} bytes follow its end", left_));
+    if (left_ > 0) damaged(fmt::format("{} bytes too many", left_));
     return file;
   }
 
  private:
+  Preamble read_start() {
+    std::string signature(kSignature.size(), '\0');
+    Preamble preamble{};
+    if (left_ < signature.size() + sizeof preamble) not_one();
+    take(signature.data(), signature.size());
+    if (signature != kSignature) not_one();
+    take(&preamble, sizeof preamble);
+    if (preamble.format == kFormat) return preamble;
+    throw InputError(fmt::format(
+        "{} is a checkpoint of format {}, this program reads format {}; use the sluice that wrote it",
+        path_.string(), preamble.format, kFormat));
+  }
+
+  // From after the start to the end.
+  void check_sum() {
+    std::vector<char> piece(std::size_t{1} << 20);
+    while (left_ > sizeof(std::uint64_t))
+      take(piece.data(), std::min<std::uint64_t>(piece.size(), left_ - sizeof(std::uint64_t)));
+    const std::uint64_t expected = sum_.value();
+    std::uint64_t recorded = 0;
+    take(&recorded, sizeof recorded);
+    if (recorded != expected) damaged("its checksum does not fit what is in it");
+  }
+
   template <typename Container>
   void take(Container& values, std::uint64_t count) {
     if (count > left_ / sizeof(typename Container::value_type)) damaged("its end is missing");
@@ -211,8 +231,8 @@ CheckpointFile read_checkpoint(const fs::path& path) {
   }
 }
 
-// By a second name the present file becomes the previous one while it still has its own, where the file system
-// knows such names.
+// By a second name the present file becomes the previous one while it still has its own, where the file
+// system knows such names.
 void write_checkpoint(const fs::path& path, CheckpointFile& file) {
   const fs::path aside = path.string() + ".new", previous = previous_checkpoint(path);
   write_alone(aside, file);

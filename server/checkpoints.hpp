@@ -10,7 +10,7 @@
 namespace sluice::server {
 
 struct CheckpointOptions {
-  std::filesystem::path file;  // empty: none are written
+  std::filesystem::path file{};  // empty: none are written
   double every = 0;            // simulated [s]; 0: every five minutes of wall time
 };
 

@@ -22,7 +22,7 @@ struct Options {
   std::chrono::milliseconds start_deadline{30000};     // for everyone to join
   std::chrono::milliseconds recorder_deadline{30000};  // for an acknowledgement the run waits for
   const std::atomic<bool>* interrupted = nullptr;      // set by a signal: end in good order
-  CheckpointOptions checkpoint;
+  CheckpointOptions checkpoint{};
 };
 
 // The run's side of every conversation: poses in, wrenches out, frames to the recorder and the watchers.

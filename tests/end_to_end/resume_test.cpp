@@ -102,8 +102,9 @@ TEST_F(Resume, ExplicitExchangesOfSeveralSteps) {
 void kill_all(pid_t program) {
   const std::string id = std::to_string(program);
   std::istringstream children(read_text("/proc/" + id + "/task/" + id + "/children"));
-  std::vector<pid_t> all{program};
+  std::vector<pid_t> all;
   for (pid_t child = 0; children >> child;) all.push_back(child);
+  all.push_back(program);  // the last: its death is a signal to the others
   prctl(PR_SET_CHILD_SUBREAPER, 1);  // the children become this process's
   kill(program, SIGSTOP);
   for (const pid_t child : all) kill(child, SIGKILL);

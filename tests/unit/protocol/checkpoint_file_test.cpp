@@ -100,7 +100,7 @@ TEST(CheckpointFile, DamageIsRefusedAndTheOneBeforeNamed) {
     EXPECT_THAT(refusal(path), AllOf(HasSubstr("run.checkpoint"), HasSubstr("run.previous.checkpoint")));
   }
   put(path, whole + "x");
-  EXPECT_THAT(refusal(path), HasSubstr("1 bytes follow its end"));
+  EXPECT_THAT(refusal(path), HasSubstr("checksum does not fit"));
 }
 
 TEST(CheckpointFile, WhatIsNoneIsNamedWithTheReason) {
