@@ -23,12 +23,11 @@ void GalerkinSolver<Dim, Kernel>::restore() {
 }
 
 template <int Dim, typename Kernel>
-std::vector<std::byte> GalerkinSolver<Dim, Kernel>::write_state() {
-  std::vector<std::byte> bytes;
+void GalerkinSolver<Dim, Kernel>::write_state(std::vector<std::byte>& bytes) {
+  bytes.clear();
   StateWriter writer(bytes);
   writer.visit(state());
   writer.visit(search_);
-  return bytes;
 }
 
 template <int Dim, typename Kernel>

@@ -33,7 +33,7 @@ class GalerkinSolver final : public Solver {
 
   void save() override;
   void restore() override;
-  [[nodiscard]] std::vector<std::byte> write_state() override;
+  void write_state(std::vector<std::byte>& bytes) override;
   void read_state(std::span<const std::byte> bytes) override;
 
   [[nodiscard]] std::span<const Wrench> wrenches() const override;

@@ -1,20 +1,15 @@
 #include "protocol/checkpoint_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <memory>
-#include <span>
 #include <string_view>
 #include <system_error>
 
 #include "protocol/error.hpp"
+#include "protocol/raw_file.hpp"
 
 namespace sluice::protocol {
 namespace {
@@ -43,68 +38,10 @@ class Checksum {
   std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_{create(), &XXH3_freeState};
 };
 
-// A file descriptor whose reads and writes are whole, or throw std::system_error.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags)
-      : path_(path), descriptor_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {
-    if (descriptor_ < 0) fail("open");
-  }
-  ~Descriptor() { close(descriptor_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  void write(const void* data, std::size_t count) {
-    const auto* from = static_cast<const char*>(data);
-    while (count > 0) {
-      const ssize_t done = ::write(descriptor_, from, count);
-      if (done < 0 && errno == EINTR) continue;
-      if (done < 0) fail("write");
-      from += done;
-      count -= static_cast<std::size_t>(done);
-    }
-  }
-  // False when the file ends before.
-  bool read(void* data, std::size_t count) {
-    auto* to = static_cast<char*>(data);
-    while (count > 0) {
-      const ssize_t done = ::read(descriptor_, to, count);
-      if (done < 0 && errno == EINTR) continue;
-      if (done < 0) fail("read");
-      if (done == 0) return false;
-      to += done;
-      count -= static_cast<std::size_t>(done);
-    }
-    return true;
-  }
-  void rewind() {
-    if (lseek(descriptor_, 0, SEEK_SET) != 0) fail("read");
-  }
-  [[nodiscard]] std::uint64_t size() const {
-    struct stat status {};
-    if (fstat(descriptor_, &status) != 0) fail("read");
-    if (!S_ISREG(status.st_mode)) throw InputError(path_.string() + " is not a regular file");
-    return static_cast<std::uint64_t>(status.st_size);
-  }
-  void synchronise() {
-    if (fsync(descriptor_) != 0) fail("synchronise");
-  }
-
- private:
-  [[noreturn]] void fail(const char* what) const {
-    throw std::system_error(errno, std::generic_category(),
-                            fmt::format("cannot {} {}", what, path_.string()));
-  }
-
-  fs::path path_;
-  int descriptor_;
-};
-
 // Nothing but signature and format is believed before the checksum of all has been seen to fit.
 class Reading {
  public:
-  explicit Reading(const fs::path& path)
-      : path_(path), file_(path, O_RDONLY | O_NONBLOCK), left_(file_.size()) {}
+  explicit Reading(const fs::path& path) : path_(path), file_(path, RawFile::kRead), left_(file_.size()) {}
 
   CheckpointFile all() {
     const std::uint64_t size = left_;
@@ -166,7 +103,7 @@ class Reading {
   }
 
   fs::path path_;
-  Descriptor file_;
+  RawFile file_;
   std::uint64_t left_;
   Checksum sum_;
 };
@@ -193,7 +130,7 @@ void write_alone(const fs::path& path, CheckpointFile& file) {
   file.header.set_rigid_numbers(file.rigid.size());
   const std::string header = file.header.SerializeAsString();
   const Preamble preamble{kFormat, static_cast<std::uint32_t>(header.size())};
-  Descriptor output(path, O_WRONLY | O_CREAT | O_TRUNC);
+  RawFile output(path, RawFile::kCreate);
   Checksum sum;
   const auto put = [&](const void* data, std::size_t count) {
     sum.add(data, count);
@@ -212,7 +149,7 @@ void write_alone(const fs::path& path, CheckpointFile& file) {
 // A rename is on disk when its directory is.
 void synchronise_directory(const fs::path& file) {
   const fs::path parent = file.parent_path();
-  Descriptor(parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY).synchronise();
+  RawFile(parent.empty() ? "." : parent, RawFile::kRead).synchronise();
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ void Checkpoints::keep(std::uint64_t step, const std::string& run_id, std::vecto
   header.set_version(build_info(simulation_.threads).version());
   header.set_recorded(recorded_);
   kept_->rigid = std::move(rigid);
-  kept_->fluid = simulation_.solver->write_state();
+  simulation_.solver->write_state(kept_->fluid);
 }
 
 std::int64_t Checkpoints::interval(std::int64_t time_ns) const {

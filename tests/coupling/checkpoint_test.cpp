@@ -64,6 +64,21 @@ TEST_F(CheckpointTest, HoldsTheLastOutputWhenTheRunIsInterrupted) {
   EXPECT_EQ(found.rigid, (std::vector<double>{30, 0.1, -0.0}));
 }
 
+TEST_F(CheckpointTest, HoldsTheLastGoodStateOfAnUnstableRun) {
+  SolverScript script;
+  script.spoil = [](std::uint64_t step, fluid::Snapshot& state) {
+    if (step == 33) state.velocity[4] = std::numeric_limits<double>::quiet_NaN();
+  };
+  TestServer server(ball(), options(), script);
+  Peer rigid(server.endpoint());
+  rigid.hello(RIGID, true);
+  play(rigid, 1, 39);
+  Message motion = kinematics(40, 40, 1);
+  rigid.send(motion);
+  EXPECT_EQ(server.outcome().reason, End::UNSTABLE);
+  EXPECT_EQ(written().header.step(), 30u);
+}
+
 TEST_F(CheckpointTest, GoesOnWhereItWas) {
   {
     TestServer server(ball(), options(0.02));

@@ -53,10 +53,9 @@ class FakeSolver : public fluid::Solver {
   void restore() override { std::tie(steps_, state_, wrenches_) = saved_; }
 
   // The step alone: whoever asks looks at what is done with it.
-  std::vector<std::byte> write_state() override {
-    std::vector<std::byte> bytes(sizeof steps_);
+  void write_state(std::vector<std::byte>& bytes) override {
+    bytes.resize(sizeof steps_);
     std::memcpy(bytes.data(), &steps_, sizeof steps_);
-    return bytes;
   }
   void read_state(std::span<const std::byte> bytes) override {
     if (bytes.size() != sizeof steps_) throw std::invalid_argument("state: 8 bytes are needed");

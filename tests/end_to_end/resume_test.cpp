@@ -97,6 +97,21 @@ TEST_F(Resume, ExplicitExchangesOfSeveralSteps) {
                    "0.1", "0.2");
 }
 
+// Starts `sluice` and returns.
+pid_t start(std::vector<std::string> arguments) {
+  const std::string program = std::string(SLUICE_BIN) + "/sluice";
+  arguments.insert(arguments.begin(), "sluice");
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    execv(program.c_str(), argv.data());
+    _exit(127);
+  }
+  return child;
+}
+
 // Kills a program and all that it has started, without giving them time for last words; when it returns, they
 // are gone.
 void kill_all(pid_t program) {
@@ -104,7 +119,7 @@ void kill_all(pid_t program) {
   std::istringstream children(read_text("/proc/" + id + "/task/" + id + "/children"));
   std::vector<pid_t> all;
   for (pid_t child = 0; children >> child;) all.push_back(child);
-  all.push_back(program);  // the last: its death is a signal to the others
+  all.push_back(program);            // the last: its death is a signal to the others
   prctl(PR_SET_CHILD_SUBREAPER, 1);  // the children become this process's
   kill(program, SIGSTOP);
   for (const pid_t child : all) kill(child, SIGKILL);
@@ -116,15 +131,9 @@ void kill_all(pid_t program) {
 TEST_F(Resume, AfterEverybodyWasKilled) {
   const Options options{"--set", "spacing=0.022", "--threads", "1", "--until", "0.35"};
   run("falling_cylinder", "whole.h5", options);
-  const pid_t program = fork();
-  if (program == 0) {
-    const std::string sluice = std::string(SLUICE_BIN) + "/sluice";
-    const std::string scene = std::string(SLUICE_SOURCE) + "/clients/scenes/falling_cylinder.scene";
-    const std::string output = path("killed.h5").string();
-    execl(sluice.c_str(), "sluice", "run", scene.c_str(), "-o", output.c_str(), "--set", "spacing=0.022",
-          "--threads", "1", "--until", "0.35", "--checkpoint-every", "0.03", nullptr);
-    _exit(127);
-  }
+  const std::string scene = std::string(SLUICE_SOURCE) + "/clients/scenes/falling_cylinder.scene";
+  const pid_t program =
+      start(joined({"run", scene, "-o", path("killed.h5").string(), "--checkpoint-every", "0.03"}, options));
   // Until it has written its second checkpoint.
   while (!std::filesystem::exists(path("killed.previous.checkpoint")))
     ASSERT_EQ(waitpid(program, nullptr, WNOHANG), 0) << "the run ended before it could be killed";
@@ -141,7 +150,32 @@ TEST_F(Resume, AfterEverybodyWasKilled) {
   expect_same_run("whole.h5", "killed.h5");
 }
 
-TEST_F(Resume, AnInterruptedRunIntoAnotherRecording) {
+// Ctrl-C, as soon as there is a frame to go on from.
+TEST_F(Resume, AfterAnInterrupt) {
+  const Options options{"--set", "spacing=0.022", "--threads", "1", "--until", "0.2"};
+  run("falling_cylinder", "whole.h5", options);
+  const std::string scene = std::string(SLUICE_SOURCE) + "/clients/scenes/falling_cylinder.scene";
+  const pid_t program = start(joined({"run", scene, "-o", path("part.h5").string()}, options));
+  const auto has_frames = [&] {
+    try {
+      return read("part.h5").frames() > 3;
+    } catch (const protocol::InputError&) {
+      return false;
+    }
+  };
+  while (!has_frames())
+    ASSERT_EQ(waitpid(program, nullptr, WNOHANG), 0) << "the run ended before it could be interrupted";
+  kill(program, SIGINT);
+  int status = 0;
+  waitpid(program, &status, 0);
+  ASSERT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_THAT(read("part.h5").detail(), HasSubstr("part.checkpoint"));
+  const Outcome resumed = sluice({"resume", "part.checkpoint", "--until", "0.2"});
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  expect_same_run("whole.h5", "part.h5");
+}
+
+TEST_F(Resume, AnotherRecordingThanTheOneSoFar) {
   run("rising_gate", "part.h5", {"--set", "spacing=0.004", "--until", "0.03"});
   const std::uint64_t before = read("part.h5").frames();
   const Outcome resumed = sluice({"resume", "part.checkpoint", "--until", "0.06", "-o", "more.h5"});

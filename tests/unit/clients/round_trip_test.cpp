@@ -4,6 +4,7 @@
 
 #include "clients/recording/inspect.hpp"
 #include "clients/recording/reader.hpp"
+#include "clients/recording/size.hpp"
 #include "clients/recording/writer.hpp"
 #include "tests/unit/clients/fake_run.hpp"
 
@@ -197,6 +198,23 @@ TEST_F(Structure, HasAnXdmfCompanionForEveryFrame) {
   const std::string xdmf = bytes_of(directory_ / "run.xdmf");
   EXPECT_THAT(xdmf, HasSubstr("<Time Value=\"0.2\"/>"));
   EXPECT_THAT(xdmf, HasSubstr("run.h5:/particles/fluid/pressure/value"));
+}
+
+// Large enough that the file's own structure does not count.
+TEST(RecordingSize, IsThatOfTheFile) {
+  const TemporaryDirectory directory;
+  const FakeRun run{.particles = 2000, .bodies = 2, .steps_per_frame = 40, .frames = 50};
+  record(run, directory / "run.h5");
+  const Welcome welcome = run.welcome().header.welcome();
+  const double expected =
+      static_cast<double>(recording_bytes({.fluid_particles = run.particles,
+                                           .boundary_particles = welcome.boundary_particles(),
+                                           .bodies = 2,
+                                           .probes = 0,
+                                           .frames = run.frames + 1,
+                                           .steps = run.frames * run.steps_per_frame}));
+  EXPECT_NEAR(static_cast<double>(std::filesystem::file_size(directory / "run.h5")), expected,
+              0.05 * expected);
 }
 
 }  // namespace
