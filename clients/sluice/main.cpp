@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "clients/recording/archive.hpp"
 #include "clients/recording/inspect.hpp"
 #include "clients/recording/repair.hpp"
 #include "clients/sluice/check.hpp"
@@ -115,6 +116,11 @@ int repair_file(const std::string& path, const std::string& output) {
   return protocol::kDone;
 }
 
+int archive_file(const std::string& path, const std::string& copy, bool force) {
+  std::cout << archive(path, copy, force) << std::flush;
+  return protocol::kDone;
+}
+
 int front_end(int argc, char** argv) {
   CLI::App app{
       "Free-surface flow with moving bodies: moving-least-squares SPH and Bullet as separate processes."};
@@ -136,12 +142,16 @@ int front_end(int argc, char** argv) {
   CLI::App* inspect_command = app.add_subcommand("inspect", "Say what is in a recording");
   inspect_command->add_option("recording", recording, "RUN.h5")->required();
   inspect_command->add_flag("--json", json, "Print one JSON object");
-  std::string repaired;
+  std::string copy;
   CLI::App* repair_command =
       app.add_subcommand("repair", "Make a recording whole whose recorder was killed, or that is damaged");
   repair_command->add_option("recording", recording, "RUN.h5")->required();
-  repair_command->add_option("-o,--output", repaired, "Write the repaired recording there")
-      ->type_name("NEW.h5");
+  repair_command->add_option("-o,--output", copy, "Write the repaired recording there")->type_name("NEW.h5");
+  bool replace = false;
+  CLI::App* archive_command = app.add_subcommand("archive", "Copy a recording, compressed without loss");
+  archive_command->add_option("recording", recording, "RUN.h5")->required();
+  archive_command->add_option("-o,--output", copy, "The copy")->type_name("SMALL.h5")->required();
+  archive_command->add_flag("--force", replace, "Replace an existing file");
   CLI::App* plot_command =
       add_forwarding(app, "plot", "Draw the particles of a recording: RUN.h5 -o PICTURE.png");
   CLI::App* keygen_command = app.add_subcommand("keygen", "Make CURVE keys for a server and a client");
@@ -160,7 +170,8 @@ int front_end(int argc, char** argv) {
   if (run_command->parsed()) return run(run_options);
   if (resume_command->parsed()) return resume(resume_options);
   if (check_command->parsed()) return check(check_options);
-  if (repair_command->parsed()) return repair_file(recording, repaired);
+  if (repair_command->parsed()) return repair_file(recording, copy);
+  if (archive_command->parsed()) return archive_file(recording, copy, replace);
   if (keygen_command->parsed()) return make_keys(key_directory);
   return inspect_file(recording, json);
 }
