@@ -117,13 +117,14 @@ pid_t start(std::vector<std::string> arguments) {
 void kill_all(pid_t program) {
   const std::string id = std::to_string(program);
   std::istringstream children(read_text("/proc/" + id + "/task/" + id + "/children"));
-  std::vector<pid_t> all;
-  for (pid_t child = 0; children >> child;) all.push_back(child);
-  all.push_back(program);            // the last: its death is a signal to the others
+  std::vector<pid_t> started;
+  for (pid_t child = 0; children >> child;) started.push_back(child);
   prctl(PR_SET_CHILD_SUBREAPER, 1);  // the children become this process's
   kill(program, SIGSTOP);
-  for (const pid_t child : all) kill(child, SIGKILL);
-  for (const pid_t child : all) waitpid(child, nullptr, 0);
+  for (const pid_t child : started) kill(child, SIGKILL);
+  kill(program, SIGKILL);  // the last: its death is a signal to the others
+  waitpid(program, nullptr, 0);
+  for (const pid_t child : started) waitpid(child, nullptr, 0);
   prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 
