@@ -84,7 +84,8 @@ TEST_F(RepairTest, LeavesAWholeRecordingAlone) {
 // A frame that is not what was written ends what can be trusted.
 TEST_F(RepairTest, KeepsWhatIsBeforeTheDamage) {
   record(run_, path_);
-  const auto values = run_.frame(100).array<double>("fluid/position");
+  const protocol::Message frame = run_.frame(100);
+  const auto values = frame.array<double>("fluid/position");
   std::string bytes = bytes_of(path_);
   const std::size_t at =
       bytes.find(std::string(reinterpret_cast<const char*>(values.data()), values.size_bytes()));
