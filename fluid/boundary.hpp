@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "fluid/kinematics.hpp"
@@ -23,6 +24,8 @@ template <int Dim>
 struct Plate {
   std::size_t body;
   std::vector<Plane<Dim>> faces;
+
+  auto state() { return std::tie(faces); }
 };
 
 // The surface as a boundary particle behind it sees it.
@@ -72,6 +75,11 @@ class BoundaryParticles {
   std::vector<double> dilation;  // wetness times volume of the fluid near over its first volume
   // What a no-slip surface adds to node().v in the shear of a viscous fluid [m/s]; empty without.
   std::vector<Vec<Dim>> sticking;
+
+  // What moves and what is extrapolated; the rest stays as it was sampled.
+  auto state() {
+    return std::tie(node_, velocity_, acceleration_, surface_, plates_, pressure, stress, dilation, sticking);
+  }
 
  private:
   void append(const Boundary& boundary, double rest_density);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "fluid/model.hpp"
@@ -37,6 +38,8 @@ class FreeSurface {
       if (at_surface_[j]) return false;
     return true;
   }
+
+  auto state() { return std::tie(at_surface_); }
 
  private:
   std::vector<std::uint8_t> at_surface_;

@@ -35,6 +35,8 @@ class GalerkinSolver final : public Solver {
 
   void save() override;
   void restore() override;
+  void write_state(std::vector<std::byte>& bytes) override;
+  void read_state(std::span<const std::byte> bytes) override;
 
   [[nodiscard]] std::span<const Wrench> wrenches() const override;
   [[nodiscard]] std::vector<WrenchParts> wrench_parts() const override;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "fluid/parallel.hpp"
@@ -40,9 +41,13 @@ class GroupList {
     std::vector<std::uint32_t> index;
     std::array<std::uint32_t, kBlock + 1> begin{};
     std::vector<std::uint8_t> lanes;  // empty where no group needs them
+
+    auto state() { return std::tie(index, begin, lanes); }
   };
 
   [[nodiscard]] std::size_t size() const { return groups_; }
+
+  auto state() { return std::tie(groups_, block_); }
 
   [[nodiscard]] NearGroup of(std::size_t group) const {
     const Block& block = block_[group / kBlock];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tuple>
 #include <vector>
 
 #include "fluid/boundary.hpp"
@@ -49,6 +50,8 @@ class GroupSearch {
           if (near.lanes == nullptr || near.lanes[n] >> l & 1) visit(near.index[n], group * kGroup + l);
     }
   }
+
+  auto state() { return std::tie(fluid_, boundary_, of_boundary_, active_); }
 
  private:
   GroupList fluid_, boundary_, of_boundary_;

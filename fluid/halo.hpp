@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -44,6 +45,8 @@ class Halo {
   // Copies to the images what moved, and what sweep 1 and the stress left.
   void refresh_nodes(Particles<Dim>& fluid) const;
   void refresh_sources(Particles<Dim>& fluid) const;
+
+  auto state() { return std::tie(image_); }
 
  private:
   // Stands at flip x + shift, by components; vectors and tensors are flipped alike.

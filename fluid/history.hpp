@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tuple>
 #include <vector>
 
 #include "fluid/kinematics.hpp"
@@ -16,6 +17,8 @@ struct History {
   std::vector<double> density;          // change of it since, reversed [kg/m^3]
   std::vector<Vec<Dim>> acceleration1;  // one step ago [m/s^2]
   std::vector<Vec<Dim>> acceleration2;  // two steps ago
+
+  auto state() { return std::tie(velocity, way, density, acceleration1, acceleration2); }
 };
 
 // Motion in the middle of a step [s] between the states at its ends, of which `to` has the mean velocities.

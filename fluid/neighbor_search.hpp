@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "fluid/boundary.hpp"
@@ -16,6 +17,8 @@ namespace sluice::fluid {
 struct NeighborList {
   std::vector<std::uint64_t> begin;
   std::vector<std::uint32_t> index;
+
+  auto state() { return std::tie(begin, index); }
 
   [[nodiscard]] std::span<const std::uint32_t> of(std::size_t i) const {
     return {index.data() + begin[i], static_cast<std::size_t>(begin[i + 1] - begin[i])};
@@ -70,6 +73,12 @@ class NeighborSearch {
   [[nodiscard]] const GroupSearch<Dim>& groups() const { return groups_; }
 
   [[nodiscard]] std::uint64_t rebuilds() const { return rebuilds_; }
+
+  // The lists, and the places that they were made for: sums stay in their order until the next rebuild.
+  auto state() {
+    return std::tie(halo_, fluid_at_build_, boundary_at_build_, fluid_, boundary_, active_list_, active_,
+                    groups_, rebuilds_);
+  }
 
  private:
   [[nodiscard]] bool is_stale(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,

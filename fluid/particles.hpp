@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "fluid/moments.hpp"
@@ -65,6 +66,12 @@ struct Particles {
   std::vector<PointSource<Dim>> point_source;
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
+
+  // What a run changes, here as in all that has it: state_bytes.hpp.
+  auto state() {
+    return std::tie(mass, node, acceleration, density_rate, id, pressure, divergence, L, stress, fit, source,
+                    slope_source, point_source);
+  }
 };
 
 }  // namespace sluice::fluid

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "fluid/boundary.hpp"
@@ -43,6 +44,8 @@ class Shifting {
                const FreeSurface<Dim>& surface, const Parallel& parallel);
   // Moves the particles by dt [s].
   void apply(double dt, Particles<Dim>& fluid, const Parallel& parallel) const;
+
+  auto state() { return std::tie(velocity_); }
 
  private:
   double strength_;

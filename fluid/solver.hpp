@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -46,6 +47,13 @@ class Solver {
   // restore: save was called.
   virtual void save() = 0;
   virtual void restore() = 0;
+
+  // The state between two steps as bytes, in the place of what was in them, and back, in place of start(),
+  // into a solver that was made from the same setup by the same program on the same class of processor: what
+  // follows is what would have followed, to the last bit. read_state throws std::invalid_argument when the
+  // bytes are not of such a solver.
+  virtual void write_state(std::vector<std::byte>& bytes) = 0;
+  virtual void read_state(std::span<const std::byte> bytes) = 0;
 
   [[nodiscard]] virtual std::span<const Wrench> wrenches() const = 0;
   // Of the same bodies at the same time. Costs a look at every pair of fluid and body.

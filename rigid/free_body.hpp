@@ -59,6 +59,13 @@ class FreeBody {
   // In the body's frame [kg m^2].
   [[nodiscard]] const Eigen::Matrix3d& inertia() const { return inertia_; }
 
+  // All that changes in a run, for state_numbers.hpp.
+  template <typename Visitor>
+  void visit_state(Visitor& visitor) {
+    visitor.visit_all(wrench_, load_, joint_impulse_, by_joints_, turned_by_joints_, pose_, velocity_,
+                      angular_momentum_, constraint_impulse_, constraint_work_, contact_, angular_contact_);
+  }
+
  private:
   // Of contact, joints, springs and dampers: an impulse and the work that it did [J].
   void account_constraint(const Wrench& impulse, double work);

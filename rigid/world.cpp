@@ -11,6 +11,7 @@
 #include "rigid/contact_drift.hpp"
 #include "rigid/free_body.hpp"
 #include "rigid/joint_solver.hpp"
+#include "rigid/state_numbers.hpp"
 
 namespace sluice::rigid {
 namespace {
@@ -89,18 +90,28 @@ struct World::Parts {
         wrench(spec.bodies.size()),
         joints(spec.joints, spec.bodies),
         load(spec.bodies.size()) {
-    std::vector<const FreeBody*> pointers(spec.bodies.size(), nullptr);
     for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
       check(spec.bodies[b]);
       if (spec.bodies[b].motion) {
         offset[b] = spec.bodies[b].motion->at(0);
       } else {
         free[b].emplace(spec.bodies[b], spec.gravity, spec.dimension);
-        pointers[b] = &*free[b];
       }
     }
-    if (is_any_ever_free()) contact = std::make_unique<ContactDrift>(spec, pointers);
+    if (is_any_ever_free()) make_contact();
     set_loads(joints.loads(jointed()));
+  }
+
+  void make_contact() {
+    std::vector<const FreeBody*> pointers;
+    for (const std::optional<FreeBody>& body : free) pointers.push_back(body ? &*body : nullptr);
+    contact = std::make_unique<ContactDrift>(spec, pointers);
+  }
+
+  template <typename Visitor>
+  void visit_body(std::size_t b, Visitor& visitor) {
+    if (free[b]) free[b]->visit_state(visitor);
+    visitor.visit_all(offset[b], wrench[b], load[b]);
   }
 
   [[nodiscard]] bool is_any_ever_free() const {
@@ -302,6 +313,36 @@ void World::restore() {
   parts_->wrench = saved.wrench;
   parts_->load = saved.load;
   if (parts_->contact) parts_->contact->drop_contacts();
+}
+
+void World::renew_contact() {
+  if (parts_->contact) parts_->make_contact();
+}
+
+std::vector<double> World::write_state() {
+  NumberWriter writer;
+  for (std::size_t b = 0; b < parts_->free.size(); ++b) {
+    double is_free = parts_->free[b] ? 1 : 0;
+    writer.visit(is_free);
+    parts_->visit_body(b, writer);
+  }
+  return writer.take();
+}
+
+std::span<const double> World::read_state(std::span<const double> row) {
+  NumberReader reader(row);
+  for (std::size_t b = 0; b < parts_->free.size(); ++b) {
+    double is_free = 0;
+    reader.visit(is_free);
+    const BodySpec& body = parts_->spec.bodies[b];
+    if (is_free == 0)
+      parts_->free[b].reset();
+    else
+      parts_->free[b].emplace(body, parts_->spec.gravity, parts_->spec.dimension);
+    parts_->visit_body(b, reader);
+  }
+  renew_contact();
+  return reader.rest();
 }
 
 std::size_t World::size() const {

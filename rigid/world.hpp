@@ -84,6 +84,14 @@ class World {
   void save();
   void restore();
 
+  // Makes anew what contact keeps between steps. What follows then depends on the state of the bodies alone,
+  // so that a world which read that state goes on to the last bit as this one does.
+  void renew_contact();
+  // The state of the bodies as numbers, and back into a world made from the same spec, whose contact is made
+  // anew. read_state gives what is left of the row; throws std::invalid_argument when it ends too early.
+  [[nodiscard]] std::vector<double> write_state();
+  std::span<const double> read_state(std::span<const double> row);
+
   [[nodiscard]] std::size_t size() const;
   // At present.
   [[nodiscard]] bool is_free(std::size_t body) const;

@@ -17,7 +17,16 @@ std::string model_name() {
   return "unknown processor";
 }
 
-// The instructions that decide which code paths of the C library are taken.
+std::string compiler() {
+#if defined(__clang__)
+  return "Clang " __clang_version__;
+#else
+  return "GCC " __VERSION__;
+#endif
+}
+
+}  // namespace
+
 std::string processor_class() {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512f")) return "x86-64, avx512";
@@ -29,16 +38,6 @@ std::string processor_class() {
   return "other";
 #endif
 }
-
-std::string compiler() {
-#if defined(__clang__)
-  return "Clang " __clang_version__;
-#else
-  return "GCC " __VERSION__;
-#endif
-}
-
-}  // namespace
 
 Build build_info(int threads) {
   Build build;

@@ -74,12 +74,18 @@ Message welcome(const Simulation& simulation, const protocol::Endpoint& endpoint
     *content.mutable_coupling() = simulation.coupling.coupling;
     for (const BodyStability& body : simulation.coupling.stability) *content.add_stability() = body;
   }
+  const Resumption& resumed = simulation.resumed;
+  content.set_done(resumed.step);
   if (role == RIGID) {
     add_wrenches(message, "wrenches", simulation.initial_wrenches);
     if (simulation.scene.probe_size() > 0) {
       std::vector<double> rows;
       for (const fluid::Kinematics& body : simulation.bodies) append(rows, body);
       add_probes(message, simulation, rows);
+    }
+    if (resumed.step > 0 && simulation.has_free_body()) {
+      message.add_array<double>("state", resumed.rigid, {resumed.rigid.size()});
+      content.set_state_build(resumed.rigid_build);
     }
   } else {
     add_boundaries(message, simulation);

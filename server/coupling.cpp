@@ -36,7 +36,8 @@ Exchange make_exchange(const Simulation& simulation) {
           {.lock_step = simulation.has_free_body(),
            .steps_per_exchange = coupling.steps_per_exchange(),
            .steps_per_output = simulation.clock.steps_per_interval(),
-           .is_iterated = simulation.is_iterated()}};
+           .is_iterated = simulation.is_iterated(),
+           .done = simulation.resumed.step}};
 }
 
 }  // namespace
@@ -48,12 +49,22 @@ Coupling::Coupling(const Simulation& simulation, Sockets& sockets, const Options
       bodies_(simulation.bodies.size()),
       lock_step_(simulation.has_free_body()),
       is_iterated_(simulation.is_iterated()),
-      session_(sockets.exchange, {.rigid = bodies_ > 0, .recorder = options.expect_recorder},
-               [this](Role role) { return welcome(simulation_, sockets_.endpoint, role); }),
+      session_(
+          sockets.exchange, {.rigid = bodies_ > 0, .recorder = options.expect_recorder},
+          [this](Role role) {
+            Message message = welcome(simulation_, sockets_.endpoint, role);
+            if (role == RIGID && lock_step_)
+              message.header.mutable_welcome()->set_wants_state(checkpoints_.wanted());
+            return message;
+          },
+          simulation.resumed.run_id),
       exchange_(make_exchange(simulation)),
       log_(bodies_),
       recorder_(sockets.record),
-      publisher_(sockets.publish) {
+      checkpoints_(options.checkpoint, simulation, options.expect_recorder),
+      publisher_(sockets.publish),
+      progress_(simulation.resumed.step),
+      step_(simulation.resumed.step) {
   for (const fluid::Kinematics& body : simulation.bodies) append(rows_, body);
 }
 
@@ -68,7 +79,9 @@ void Coupling::wait_for_participants() {
                                            late("the recorder did not join", options_.start_deadline));
              });
   session_.begin();
-  progress_ = Progress();
+  progress_ = Progress(step_);
+  if (checkpoints_.wanted() && lock_step_ && !gives_state_)
+    spdlog::warn("no checkpoints will be written: the rigid process does not give its state");
 }
 
 std::uint64_t Coupling::exchange_end(std::uint64_t first) {
@@ -142,6 +155,38 @@ void Coupling::output(std::uint64_t step) {
   record(std::move(message));
 }
 
+void Coupling::checkpoint(std::uint64_t step) {
+  if (!checkpoints_.wanted() || (lock_step_ && !gives_state_)) return;
+  if (lock_step_)
+    wait_until([&] { return rigid_state_.step == step; }, options_.deadline,
+               [&] {
+                 const std::string what =
+                     fmt::format("the rigid process did not give its state after step {}", step);
+                 return Stop(End::PARTICIPANT_TIMEOUT, late(what, options_.deadline));
+               });
+  checkpoints_.keep(step, session_.run_id(), rigid_state_.numbers, rigid_state_.build);
+  kept_after_ = recorder_.sent();
+  if (!checkpoints_.is_due()) return;
+  if (options_.expect_recorder) drain_recorder();
+  write_checkpoint();
+}
+
+// The state that a run stopped with: that of the last output.
+void Coupling::write_last_checkpoint(Outcome& outcome) {
+  const bool recorded = recorder_.acknowledged() >= kept_after_;
+  if (recorded && checkpoints_.is_due_at_end(outcome.reason == End::FINISHED)) write_checkpoint();
+  if (const std::string report = checkpoints_.report(); !report.empty()) outcome.detail += "; " + report;
+}
+
+// A full disk is no reason to lose the run.
+void Coupling::write_checkpoint() {
+  try {
+    checkpoints_.write();
+  } catch (const std::system_error& error) {
+    spdlog::warn("no checkpoint after step {}: {}", checkpoints_.step(), error.what());
+  }
+}
+
 void Coupling::poll() {
   if (steady_clock::now() - polled_ < kPollEvery) return;
   service(milliseconds(0));
@@ -158,19 +203,9 @@ void Coupling::end(Outcome& outcome) {
     stamp(end_message.header);
     return end_message;
   };
-  try {
-    if (outcome.reason != End::RECORDER_LOST && session_.present(RECORDER)) {
-      record_log();
-      record(message());
-      drain_recorder();
-    }
-  } catch (const Stop& stop) {
-    spdlog::warn("while ending: {}", stop.what());
-    if (outcome.reason == End::FINISHED) {
-      outcome.reason = stop.reason();
-      outcome.detail = stop.what();
-    }
-  }
+  bring_to_recorder(outcome, [this] { record_log(); });
+  write_last_checkpoint(outcome);
+  bring_to_recorder(outcome, [&] { record(message()); });
   if (outcome.reason == End::RECORDER_LOST) {
     outcome.detail += fmt::format("; {} messages up to step {} are recorded", recorder_.acknowledged(),
                                   recorder_.acknowledged_step());
@@ -178,6 +213,22 @@ void Coupling::end(Outcome& outcome) {
   session_.send(RIGID, message());
   publisher_.update();
   publisher_.publish("status", message());
+}
+
+// Sends what `send` has and waits until the recorder has it.
+template <typename Send>
+void Coupling::bring_to_recorder(Outcome& outcome, const Send& send) {
+  if (outcome.reason == End::RECORDER_LOST || !session_.present(RECORDER)) return;
+  try {
+    send();
+    drain_recorder();
+  } catch (const Stop& stop) {
+    spdlog::warn("while ending: {}", stop.what());
+    if (outcome.reason == End::FINISHED) {
+      outcome.reason = stop.reason();
+      outcome.detail = stop.what();
+    }
+  }
 }
 
 template <typename Done, typename Fail>
@@ -214,10 +265,11 @@ void Coupling::dispatch(const Session::Inbound& inbound) {
   try {
     if (header.has_hello()) {
       // A rigid process in the place of one that went before the run began starts over.
-      if (inbound.role == RIGID) {
-        exchange_ = make_exchange(simulation_);
-        wants_probes_ = header.hello().probes();
-      }
+      if (inbound.role != RIGID) return;
+      exchange_ = make_exchange(simulation_);
+      wants_probes_ = header.hello().probes();
+      rigid_state_ = {};
+      gives_state_ = header.hello().gives_state();
     } else if (inbound.role == RIGID && header.has_kinematics()) {
       std::optional<Message> reply = exchange_.accept(inbound.message);
       if (!reply) return;
@@ -225,6 +277,8 @@ void Coupling::dispatch(const Session::Inbound& inbound) {
       session_.send(RIGID, std::move(*reply));
     } else if (inbound.role == RIGID && header.has_accepted()) {
       exchange_.accept_exchange(header.accepted());
+    } else if (inbound.role == RIGID && header.has_state()) {
+      take_state(inbound.message);
     } else if (inbound.role == RECORDER && header.has_acknowledgement()) {
       recorder_.acknowledge(header.acknowledgement().sequence());
     } else {
@@ -234,6 +288,20 @@ void Coupling::dispatch(const Session::Inbound& inbound) {
     }
   } catch (const Refused& refused) {
     session_.refuse(inbound.role, refused);
+  }
+}
+
+void Coupling::take_state(const Message& message) {
+  const State& content = message.header.state();
+  if (!lock_step_ || content.step() != step_ || !simulation_.clock.is_output(step_))
+    throw Refused(Refusal::BAD_SEQUENCE,
+                  fmt::format("the state after step {} came; it is wanted after output steps, and {} is done",
+                              content.step(), step_));
+  try {
+    const std::span<const double> numbers = message.array<double>("state");
+    rigid_state_ = {content.step(), content.build(), {numbers.begin(), numbers.end()}};
+  } catch (const protocol::ProtocolError& error) {
+    throw Refused(Refusal::BAD_MESSAGE, error.what());
   }
 }
 

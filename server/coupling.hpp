@@ -4,6 +4,7 @@
 #include <chrono>
 #include <span>
 
+#include "server/checkpoints.hpp"
 #include "server/exchange.hpp"
 #include "server/exchange_logger.hpp"
 #include "server/progress.hpp"
@@ -21,6 +22,7 @@ struct Options {
   std::chrono::milliseconds start_deadline{30000};     // for everyone to join
   std::chrono::milliseconds recorder_deadline{30000};  // for an acknowledgement the run waits for
   const std::atomic<bool>* interrupted = nullptr;      // set by a signal: end in good order
+  CheckpointOptions checkpoint{};
 };
 
 // The run's side of every conversation: poses in, wrenches out, frames to the recorder and the watchers.
@@ -43,6 +45,9 @@ class Coupling {
   bool repeats();
   // Hands the state to the recorder and the watchers; waits while the recorder is too far behind.
   void output(std::uint64_t step);
+  // Keeps the state after an output step, and writes it to disk when that is due and the recorder has all up
+  // to there; waits for the rigid process to give its part.
+  void checkpoint(std::uint64_t step);
   // Looks after messages and publishes the status. Costs next to nothing when it was called just before.
   void poll();
 
@@ -60,6 +65,11 @@ class Coupling {
   void record(protocol::Message message);
   void record_log();
   void drain_recorder();
+  void take_state(const protocol::Message& message);
+  void write_checkpoint();
+  void write_last_checkpoint(Outcome& outcome);
+  template <typename Send>
+  void bring_to_recorder(Outcome& outcome, const Send& send);
   void publish_status();
   // What the probes measure, to who asked for it where the answer ends with an output; else nothing.
   [[nodiscard]] std::vector<double> probes_for_participant(std::uint64_t step) const;
@@ -76,6 +86,16 @@ class Coupling {
   Exchange exchange_;
   ExchangeLogger log_;
   RecordStream recorder_;
+  Checkpoints checkpoints_;
+  std::uint64_t kept_after_ = 0;  // message to the recorder
+  // What the rigid process gave of its state, and whether it does.
+  struct RigidState {
+    std::uint64_t step = 0;
+    std::string build;
+    std::vector<double> numbers;
+  };
+  RigidState rigid_state_;
+  bool gives_state_ = false;
   Publisher publisher_;
   Progress progress_;
   std::chrono::steady_clock::time_point polled_;

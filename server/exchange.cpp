@@ -24,7 +24,7 @@ std::string shape_text(const std::vector<std::uint64_t>& shape) {
 }  // namespace
 
 Exchange::Exchange(std::size_t bodies, std::uint64_t steps, const Terms& terms)
-    : bodies_(bodies), steps_(steps), terms_(terms) {}
+    : bodies_(bodies), steps_(steps), terms_(terms), last_step_(terms.done) {}
 
 std::optional<Message> Exchange::accept(const Message& message) {
   const std::uint64_t sequence = message.header.sequence();

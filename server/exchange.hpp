@@ -14,10 +14,10 @@ namespace sluice::server {
 
 // The kinematics the rigid process sent for steps to come, and the replies it is owed. Knows no socket.
 //
-// Sequences and steps are contiguous from 1. When a body is free every message is one exchange, as the next
-// needs its answer; otherwise messages hold up to kMostSteps steps and up to kMostUnanswered of them wait
-// here. Where exchanges are iterated the rigid process sends the steps of one again, or accepts it, before it
-// goes on.
+// Sequences are contiguous from 1, steps from the first that is not done. When a body is free every message
+// is one exchange, as the next needs its answer; otherwise messages hold up to kMostSteps steps and up to
+// kMostUnanswered of them wait here. Where exchanges are iterated the rigid process sends the steps of one
+// again, or accepts it, before it goes on.
 class Exchange {
  public:
   static constexpr std::uint32_t kMostSteps = 256;
@@ -28,6 +28,7 @@ class Exchange {
     std::uint64_t steps_per_exchange = 1;  // at most, in lock-step; none goes beyond an output
     std::uint64_t steps_per_output = 1;
     bool is_iterated = false;
+    std::uint64_t done = 0;  // steps before the first that comes
   };
 
   Exchange(std::size_t bodies, std::uint64_t steps, const Terms& terms);

@@ -22,24 +22,34 @@ void on_signal(int) {
 }
 
 struct Arguments {
-  std::string scene;
+  std::string scene, resume;  // one of them
   std::string listen;
   std::vector<std::string> overrides;
   std::string keys;  // directory; empty: no encryption, this machine only
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   double until = 0;  // [s]; 0: the scene's duration
+  server::CheckpointOptions checkpoint;
   double deadline = 4, start_deadline = 30, recorder_deadline = 30;
   bool expect_recorder = false;
 };
 
 void declare(CLI::App& app, Arguments& arguments) {
-  app.add_option("--scene", arguments.scene, "Scene file, textproto or JSON")->required();
+  CLI::Option_group& start = *app.add_option_group("start", "What to run");
+  CLI::Option* scene = start.add_option("--scene", arguments.scene, "Scene file, textproto or JSON");
+  start.add_option("--resume", arguments.resume, "Checkpoint to go on from");
+  start.require_option(1);
   app.add_option("--listen", arguments.listen, "ipc://PATH or tcp://HOST:PORT")->required();
   app.add_option("--keys", arguments.keys, "Directory of keys (sluice keygen); lets other machines connect");
-  app.add_option("--set", arguments.overrides, "Change a field of the scene: PATH=VALUE");
+  app.add_option("--set", arguments.overrides, "Change a field of the scene: PATH=VALUE")->needs(scene);
   app.add_option("--threads", arguments.threads, "Threads of the solver")->check(CLI::Range(1, 1024));
   app.add_option("--until", arguments.until, "Simulated time to stop at [s]")->check(CLI::PositiveNumber);
   app.add_flag("--expect-recorder", arguments.expect_recorder, "Wait for a recorder, and for it to keep up");
+  CLI::Option* file =
+      app.add_option("--checkpoint", arguments.checkpoint.file,
+                     "Write the state there when the run is stopped, and every five minutes before");
+  app.add_option("--checkpoint-every", arguments.checkpoint.every, "And at each multiple of this time [s]")
+      ->check(CLI::PositiveNumber)
+      ->needs(file);
   const auto deadline = [&](const char* name, double& value, const char* text) {
     app.add_option(name, value, text)->check(CLI::Range(1e-3, 1e6))->capture_default_str();
   };
@@ -56,19 +66,14 @@ server::Options to_options(const Arguments& arguments) {
           .deadline = milliseconds(arguments.deadline),
           .start_deadline = milliseconds(arguments.start_deadline),
           .recorder_deadline = milliseconds(arguments.recorder_deadline),
-          .interrupted = &interrupted};
+          .interrupted = &interrupted,
+          .checkpoint = arguments.checkpoint};
 }
 
-// The output rate stays that of the whole scene when the run is cut.
-Scene to_scene(const protocol::SceneFile& file, double until) {
-  Scene scene = protocol::with_defaults(file.scene());
-  if (until > 0) scene.set_duration(until);
-  return scene;
-}
-
-server::Simulation prepare(const protocol::SceneFile& file, const Arguments& arguments) {
+server::Simulation start(const Arguments& arguments) {
+  const protocol::SceneFile file = protocol::SceneFile::load(arguments.scene, arguments.overrides);
   try {
-    return server::make_simulation(to_scene(file, arguments.until), arguments.threads);
+    return server::make_simulation(file.scene(), arguments.threads, fluid::make_solver, arguments.until);
   } catch (const protocol::SceneError& error) {
     std::vector<protocol::Problem> problems = error.problems();
     for (protocol::Problem& problem : problems) problem.where = file.locate(problem.field);
@@ -78,19 +83,30 @@ server::Simulation prepare(const protocol::SceneFile& file, const Arguments& arg
   }
 }
 
+server::Simulation resume(const Arguments& arguments) {
+  try {
+    return server::resume_simulation(protocol::read_checkpoint(arguments.resume), arguments.threads,
+                                     fluid::make_solver, arguments.until);
+  } catch (const std::invalid_argument& error) {
+    throw protocol::InputError(fmt::format("{}: {}", arguments.resume, error.what()));
+  }
+}
+
 std::optional<protocol::ServerKeys> load_keys(const std::string& directory) {
   if (directory.empty()) return std::nullopt;
   return protocol::ServerKeys::load(directory);
 }
 
 int serve(const Arguments& arguments) {
-  const protocol::SceneFile file = protocol::SceneFile::load(arguments.scene, arguments.overrides);
   const std::optional<protocol::ServerKeys> keys = load_keys(arguments.keys);
   server::Sockets sockets(protocol::Endpoint::parse(arguments.listen, keys.has_value()), keys);
-  server::Simulation simulation = prepare(file, arguments);
+  server::Simulation simulation = arguments.resume.empty() ? start(arguments) : resume(arguments);
   spdlog::info("{}: {} fluid and {} boundary particles, {} steps, {} threads; listening on {}",
                simulation.scene.name(), simulation.fluid_particles, simulation.boundary_particles(),
                simulation.clock.steps(), simulation.threads, sockets.endpoint.exchange);
+  if (simulation.resumed.step > 0)
+    spdlog::info("going on after step {}, {:g} s", simulation.resumed.step,
+                 protocol::seconds(simulation.clock.time(simulation.resumed.step)));
   if (simulation.is_iterated())
     spdlog::info("exchanges with the bodies are iterated, {} step(s) each",
                  simulation.coupling.coupling.steps_per_exchange());

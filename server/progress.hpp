@@ -8,6 +8,9 @@ namespace sluice::server {
 // Wall clock of a run and its speed.
 class Progress {
  public:
+  // `steps` were done before.
+  explicit Progress(std::uint64_t steps = 0) : steps_(steps) {}
+
   // Whether the next report is due; true about ten times a second.
   [[nodiscard]] bool due() const { return Clock::now() - reported_ >= std::chrono::milliseconds(100); }
   // Steps a second, averaged over about the last ten reports. Call once for every report.
@@ -20,7 +23,7 @@ class Progress {
 
   Clock::time_point start_ = Clock::now();
   Clock::time_point reported_ = start_;
-  std::uint64_t steps_ = 0;
+  std::uint64_t steps_;
   double rate_ = 0;
 };
 

@@ -35,10 +35,14 @@ void advance(Simulation& simulation, Coupling& coupling) {
   const protocol::StepClock& clock = simulation.clock;
   const Guard guard(simulation.scene);
 
-  coupling.output(0);
-  for (std::uint64_t first = 1; first <= clock.steps();) {
+  const std::uint64_t done = simulation.resumed.step;
+  if (done == 0) coupling.output(0);
+  for (std::uint64_t first = done + 1; first <= clock.steps();) {
     const std::uint64_t last = exchange(simulation, coupling, guard, first);
-    if (clock.is_output(last)) coupling.output(last);
+    if (clock.is_output(last)) {
+      coupling.output(last);
+      coupling.checkpoint(last);
+    }
     coupling.poll();
     first = last + 1;
   }

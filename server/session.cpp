@@ -38,11 +38,11 @@ std::uint64_t random_bits() {
 
 }  // namespace
 
-Session::Session(zmq::socket_t& router, Needs needs, Greeting greeting)
+Session::Session(zmq::socket_t& router, Needs needs, Greeting greeting, const std::string& run_id)
     : router_(router),
       needs_(needs),
       greeting_(std::move(greeting)),
-      run_id_(fmt::format("{:016x}", random_bits())) {}
+      run_id_(run_id.empty() ? fmt::format("{:016x}", random_bits()) : run_id) {}
 
 bool Session::complete() const {
   return (!needs_.rigid || present(RIGID)) && (!needs_.recorder || present(RECORDER));

@@ -33,7 +33,8 @@ class Session {
     protocol::Message message;
   };
 
-  Session(zmq::socket_t& router, Needs needs, Greeting greeting);
+  // A run that goes on has its `run_id`; a new one gets one.
+  Session(zmq::socket_t& router, Needs needs, Greeting greeting, const std::string& run_id = {});
 
   void begin() { state_ = State::RUNNING; }
   void finish() { state_ = State::ENDING; }
@@ -51,7 +52,8 @@ class Session {
   void send(Role role, protocol::Message message);
   void refuse(Role role, const Refused& refused);
 
-  // Sends everyone a heartbeat when the last ones are older than `interval`; who cannot be reached twice is lost.
+  // Sends everyone a heartbeat when the last ones are older than `interval`; who cannot be reached twice is
+  // lost.
   void heartbeat(std::chrono::milliseconds interval);
 
  private:

@@ -1,11 +1,15 @@
 #include "server/simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
 #include "fluid/sampling.hpp"
 #include "protocol/body_kind.hpp"
+#include "protocol/build_id.hpp"
 #include "protocol/scene_check.hpp"
+#include "server/build_info.hpp"
 #include "server/formulation.hpp"
 #include "server/geometry.hpp"
 #include "server/liquid.hpp"
@@ -102,8 +106,13 @@ std::size_t Simulation::boundary_particles() const {
   return count;
 }
 
-Simulation make_simulation(const Scene& given, int threads, const SolverFactory& factory) {
+namespace {
+
+// All but the first forces. The output rate stays that of the whole scene when the run is cut.
+Simulation set_up(const Scene& given, int threads, const SolverFactory& factory, double until) {
   Scene scene = protocol::with_defaults(given);
+  const double whole_duration = scene.duration();
+  if (until > 0) scene.set_duration(until);
   fluid::Setup setup = to_setup(scene, threads);
 
   std::vector<fluid::Kinematics> bodies;
@@ -113,12 +122,11 @@ Simulation make_simulation(const Scene& given, int threads, const SolverFactory&
       scene, std::min(solver->largest_step(scene.liquid().max_speed()), largest_exchange_step(scene, setup)));
   CouplingPlan coupling = plan_coupling(
       scene, setup, protocol::seconds(clock.interval()) / static_cast<double>(clock.steps_per_interval()));
-  solver->start(bodies);
-  const std::span<const fluid::Wrench> wrenches = solver->wrenches();
-
   return {.scene = std::move(scene),
+          .whole_duration = whole_duration,
           .bodies = std::move(bodies),
-          .initial_wrenches = {wrenches.begin(), wrenches.end()},
+          .initial_wrenches = {},
+          .resumed = {},
           .solver = std::move(solver),
           .clock = clock,
           .coupling = std::move(coupling),
@@ -127,6 +135,62 @@ Simulation make_simulation(const Scene& given, int threads, const SolverFactory&
           .fluid_particles = setup.fluid.position.size(),
           .particle_mass = setup.liquid.density * setup.fluid.volume,
           .threads = threads};
+}
+
+void keep_wrenches(Simulation& simulation) {
+  const std::span<const fluid::Wrench> wrenches = simulation.solver->wrenches();
+  simulation.initial_wrenches.assign(wrenches.begin(), wrenches.end());
+}
+
+void require_same_program(const Checkpoint& checkpoint) {
+  const auto require = [](const std::string& what, const std::string& its, const std::string& mine) {
+    if (its != mine)
+      throw protocol::InputError(fmt::format(
+          "the checkpoint was written by another {} ({}; this one is {}), where the run would not go "
+          "on to the last bit; resume it there, or run the scene again",
+          what, its.empty() ? "unnamed" : its, mine.empty() ? "unnamed" : mine));
+  };
+  require("class of processors", checkpoint.processor_class(), processor_class());
+  require("build of sluice-server", checkpoint.server_build(), protocol::build_id());
+}
+
+void require_same_clock(const Checkpoint& checkpoint, const protocol::StepClock& clock) {
+  if (checkpoint.interval_ns() != clock.interval() ||
+      checkpoint.steps_per_interval() != clock.steps_per_interval() || !clock.is_output(checkpoint.step()))
+    throw protocol::InputError("the checkpoint is damaged: its clock is not that of its scene");
+  if (checkpoint.step() >= clock.steps())
+    throw protocol::InputError(
+        fmt::format("the checkpoint is at {:g} s and the run ends at {:g} s: there is nothing left to do; "
+                    "give a later --until",
+                    protocol::seconds(checkpoint.time_ns()), protocol::seconds(clock.time(clock.steps()))));
+}
+
+}  // namespace
+
+Simulation make_simulation(const Scene& scene, int threads, const SolverFactory& factory, double until) {
+  Simulation simulation = set_up(scene, threads, factory, until);
+  simulation.solver->start(simulation.bodies);
+  keep_wrenches(simulation);
+  return simulation;
+}
+
+Simulation resume_simulation(protocol::CheckpointFile checkpoint, int threads, const SolverFactory& factory,
+                             double until) {
+  const Checkpoint& header = checkpoint.header;
+  require_same_program(header);
+  Simulation simulation = set_up(header.scene(), threads, factory, until);
+  require_same_clock(header, simulation.clock);
+  try {
+    simulation.solver->read_state(checkpoint.fluid);
+  } catch (const std::invalid_argument& error) {
+    throw protocol::InputError(fmt::format("the checkpoint does not fit its scene: {}", error.what()));
+  }
+  keep_wrenches(simulation);
+  simulation.resumed = {.step = header.step(),
+                        .run_id = header.run_id(),
+                        .rigid = std::move(checkpoint.rigid),
+                        .rigid_build = header.rigid_build()};
+  return simulation;
 }
 
 }  // namespace sluice::server

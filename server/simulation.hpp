@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "fluid/solver.hpp"
+#include "protocol/checkpoint_file.hpp"
 #include "protocol/sim_time.hpp"
 #include "scene.pb.h"
 #include "server/stability.hpp"
@@ -13,11 +14,21 @@ namespace sluice::server {
 // What the solver needs, from a scene with its defaults filled in. Throws SceneError (see fill_liquid).
 fluid::Setup to_setup(const Scene& scene, int threads);
 
-// A scene ready to run: the solver has computed the forces at time 0.
+// Where a run goes on that was stopped.
+struct Resumption {
+  std::uint64_t step = 0;  // done before; 0: the run starts
+  std::string run_id;
+  std::vector<double> rigid;  // the bodies' state, and the program that can read it; empty where none is free
+  std::string rigid_build;
+};
+
+// A scene ready to run: the solver has computed the forces at time 0, or of the last step that is done.
 struct Simulation {
   Scene scene;                            // with its defaults
+  double whole_duration = 0;              // of a run that is to be cut short [s]
   std::vector<fluid::Kinematics> bodies;  // at time 0
   std::vector<fluid::Wrench> initial_wrenches;
+  Resumption resumed;
   std::unique_ptr<fluid::Solver> solver;
   protocol::StepClock clock;
   CouplingPlan coupling;
@@ -37,8 +48,14 @@ struct Simulation {
 
 using SolverFactory = std::function<std::unique_ptr<fluid::Solver>(const fluid::Setup&)>;
 
-// Throws SceneError when the scene cannot be set up, InputError when its steps would be too short.
-Simulation make_simulation(const Scene& scene, int threads,
-                           const SolverFactory& factory = fluid::make_solver);
+// A run of the scene up to `until` [s]; 0: its duration. Throws SceneError when the scene cannot be set up,
+// InputError when its steps would be too short.
+Simulation make_simulation(const Scene& scene, int threads, const SolverFactory& factory = fluid::make_solver,
+                           double until = 0);
+
+// Goes on from a checkpoint, likewise. Throws InputError when this program cannot, or when it would end
+// before.
+Simulation resume_simulation(protocol::CheckpointFile checkpoint, int threads,
+                             const SolverFactory& factory = fluid::make_solver, double until = 0);
 
 }  // namespace sluice::server

@@ -99,8 +99,10 @@ Estimate estimate(const Layout& layout) {
   result.memory_bytes =
       static_cast<std::uint64_t>(kBaseBytes + kFluidBytes * fluid + kBoundaryBytes * boundary);
   const double step = formulation.courant() * h / (liquid.sound_speed() + liquid.max_speed());
-  result.steps =
-      protocol::StepClock::for_run(layout.scene.duration(), layout.scene.output().rate(), step).steps();
+  const auto clock =
+      protocol::StepClock::for_run(layout.scene.duration(), layout.scene.output().rate(), step);
+  result.steps = clock.steps();
+  result.frames = clock.steps() / clock.steps_per_interval() + 1;
   result.run_seconds =
       fluid * static_cast<double>(result.steps) / (layout.dimension == 2 ? kSpeed2 : kSpeed3);
   return result;

@@ -12,7 +12,7 @@ namespace sluice::clients {
 struct Estimate {
   std::uint64_t fluid_particles = 0;
   std::uint64_t boundary_particles = 0;
-  std::uint64_t steps = 0;
+  std::uint64_t steps = 0, frames = 0;
   std::uint64_t memory_bytes = 0;
   double run_seconds = 0;
 };

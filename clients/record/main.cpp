@@ -21,6 +21,8 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("-o,--output", options.output, "File to write, RUN.h5")->required();
   app.add_flag("--force", options.force, "Replace an existing file");
+  app.add_option("--resume", options.resume, "Go on with this recording, of a run that is resumed")
+      ->type_name("RUN.h5");
   app.add_option("--keys", keys, "Directory with client.secret and server.public");
   return clients::run_program("sluice-record", app, argc, argv, [&] {
     options.keys = clients::load_client_keys(keys);

@@ -4,7 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "clients/record/connection.hpp"
-#include "clients/recording/writer.hpp"
+#include "clients/recording/continuation.hpp"
 #include "clients/recording/xdmf.hpp"
 #include "protocol/framing.hpp"
 
@@ -32,9 +32,16 @@ class Recorder {
         stream_(protocol::make_socket(context_, zmq::socket_type::pull)) {}
 
   RecordOutcome run() {
-    OutputFile output(options_.output, options_.force);
-    connection_.greet(RECORDER, "sluice-record");
-    writer_.emplace(std::move(output), wait_for_welcome());
+    if (options_.resume.empty()) {
+      OutputFile output(options_.output, options_.force);
+      connection_.greet(RECORDER, "sluice-record");
+      const Message welcome = wait_for_welcome();
+      require_start(welcome.header.welcome());
+      writer_.emplace(std::move(output), welcome);
+    } else {
+      connection_.greet(RECORDER, "sluice-record");
+      continuation_.emplace(options_.resume, options_.output, options_.force, wait_for_welcome());
+    }
     connect_stream();
     spdlog::info("recording run {} to {}", connection_.run_id(), options_.output.string());
     try {
@@ -62,6 +69,12 @@ class Recorder {
       }
       connection_.watch(options_.patience);
     }
+  }
+
+  static void require_start(const Welcome& welcome) {
+    if (welcome.done() == 0) return;
+    throw protocol::InputError(fmt::format(
+        "the run goes on after step {}; name its recording so far with --resume", welcome.done()));
   }
 
   // Only now: what the server pushes goes to whoever is connected, also to a recorder that it refuses.
@@ -95,7 +108,7 @@ class Recorder {
       finish(End::Reason_Name(end_->reason()), end_->detail(), end_->wall_seconds());
       outcome_.complete = true;
     } else {
-      writer_->flush();
+      writer().flush();
     }
     Message acknowledgement;
     acknowledgement.header.mutable_acknowledgement()->set_sequence(sequence_);
@@ -113,7 +126,8 @@ class Recorder {
     if (header.has_end()) {
       end_ = header.end();
     } else {
-      writer_->write(message);
+      if (continuation_) continuation_->take_place();
+      writer().write(message);
     }
     sequence_ = header.sequence();
   }
@@ -129,15 +143,18 @@ class Recorder {
   }
 
   void finish(const std::string& reason, const std::string& detail, double wall_seconds = 0) {
-    writer_->finish(reason, detail, wall_seconds);
+    outcome_.reason = reason;
+    outcome_.detail = detail;
+    if (continuation_ && !continuation_->is_in_place()) return continuation_->abandon();
+    writer().finish(reason, detail, wall_seconds);
     try {
       write_xdmf(options_.output);
     } catch (const std::exception& error) {
       spdlog::warn("the recording has no companion for ParaView: {}", error.what());
     }
-    outcome_.reason = reason;
-    outcome_.detail = detail;
   }
+
+  Writer& writer() { return continuation_ ? continuation_->writer() : *writer_; }
 
   const RecordOptions& options_;
   const std::atomic<bool>& stop_;
@@ -145,7 +162,9 @@ class Recorder {
   zmq::context_t context_;
   Connection connection_;
   zmq::socket_t stream_;
+  // One of the two.
   std::optional<Writer> writer_;
+  std::optional<Continuation> continuation_;
   std::optional<End> end_;
   std::uint64_t sequence_ = 0;
   RecordOutcome outcome_;

@@ -14,6 +14,8 @@ struct RecordOptions {
   std::string endpoint;
   std::filesystem::path output;
   bool force = false;  // replace an existing file
+  // Of a run that is resumed: its recording so far, which may be the output.
+  std::filesystem::path resume{};
   std::optional<protocol::ClientKeys> keys;
   std::chrono::milliseconds patience{30000};  // with a server that does not answer the greeting
 };

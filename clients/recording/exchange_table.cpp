@@ -47,9 +47,9 @@ ExchangeTable::ExchangeTable(hsize_t bodies, Make make) : fields_(layout::exchan
     data_.push_back(make.template operator()<double>(field.dataset, field.row, field.unit));
 }
 
-ExchangeTable ExchangeTable::create(hid_t file, hsize_t bodies) {
+ExchangeTable ExchangeTable::create(hid_t file, hsize_t bodies, h5::Storage storage) {
   return {bodies, [&]<typename T>(const std::string& path, const h5::Shape& row, const std::string& unit) {
-            return h5::Series::create<T>(file, path, row, unit);
+            return h5::Series::create<T>(file, path, row, unit, storage);
           }};
 }
 

@@ -13,7 +13,7 @@ namespace sluice::clients {
 // What the rigid process and the server told each other, a row a step; row k is step k + 1.
 class ExchangeTable {
  public:
-  static ExchangeTable create(hid_t file, hsize_t bodies);
+  static ExchangeTable create(hid_t file, hsize_t bodies, h5::Storage storage = h5::Storage::kPlain);
   static ExchangeTable open(hid_t file, hsize_t bodies);
 
   // Throws ProtocolError, having written nothing, when the log does not continue the recorded steps.

@@ -48,10 +48,11 @@ FrameTable::FrameTable(hsize_t particles, hsize_t bodies, hsize_t probes, Make m
                                                        observable.row, observable.unit));
 }
 
-FrameTable FrameTable::create(hid_t file, hsize_t particles, hsize_t bodies, hsize_t probes) {
+FrameTable FrameTable::create(hid_t file, hsize_t particles, hsize_t bodies, hsize_t probes,
+                              h5::Storage storage) {
   FrameTable table(particles, bodies, probes,
                    [&]<typename T>(const std::string& path, const h5::Shape& row, const std::string& unit) {
-                     return h5::Series::create<T>(file, path, row, unit);
+                     return h5::Series::create<T>(file, path, row, unit, storage);
                    });
   link_times(file, "/frames");
   for (const char* name : {"velocity", "density", "pressure"})

@@ -12,7 +12,8 @@ namespace sluice::clients {
 // The state frames of a recording: a row in each of its datasets.
 class FrameTable {
  public:
-  static FrameTable create(hid_t file, hsize_t particles, hsize_t bodies, hsize_t probes);
+  static FrameTable create(hid_t file, hsize_t particles, hsize_t bodies, hsize_t probes,
+                           h5::Storage storage = h5::Storage::kPlain);
   static FrameTable open(hid_t file, hsize_t particles, hsize_t bodies, hsize_t probes);
 
   // Throws ProtocolError, having written nothing, when the frame is not the next or not what it says.

@@ -205,7 +205,7 @@ std::string frames_line(const Json& all, const Reader& recording) {
 }  // namespace
 
 std::string inspect_json(const Reader& recording) {
-  return describe(recording).dump(2) + "\n";
+  return describe(recording).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string inspect(const Reader& recording) {

@@ -6,6 +6,14 @@ namespace sluice::clients::h5 {
 namespace {
 
 constexpr std::size_t kChunkBytes = 8 << 10;
+constexpr std::size_t kCompressedChunkBytes = 256 << 10;
+constexpr unsigned kDeflateLevel = 4;
+
+// Bytes of equal weight side by side are what deflate can make something of.
+void compress(const Properties& properties) {
+  check(H5Pset_shuffle(properties), "ask for shuffling");
+  check(H5Pset_deflate(properties, kDeflateLevel), "ask for compression");
+}
 
 Shape with_length(hsize_t length, const Shape& row) {
   Shape shape{length};
@@ -18,17 +26,20 @@ Shape with_length(hsize_t length, const Shape& row) {
 // No checksum filter: a chunk of several rows is rewritten as rows are added, and a kill in the middle of
 // that must not cost the rows that are there already. Their bytes are rewritten as they were.
 Series Series::create(hid_t file, const std::string& path, hid_t type, const Shape& row, std::size_t element,
-                      const std::string& unit) {
+                      const std::string& unit, Storage storage) {
   Series series;
   series.path_ = path;
   series.row_ = row;
   series.row_elements_ = elements(row);
   if (series.row_elements_ == 0) return series;
 
-  const hsize_t rows = std::max<hsize_t>(kChunkBytes / (series.row_elements_ * element), 1);
+  const bool compressed = storage == Storage::kCompressed;
+  const std::size_t chunk_bytes = compressed ? kCompressedChunkBytes : kChunkBytes;
+  const hsize_t rows = std::max<hsize_t>(chunk_bytes / (series.row_elements_ * element), 1);
   const Properties properties(H5Pcreate(H5P_DATASET_CREATE), "make dataset properties");
   const Shape chunk = with_length(rows, row);
   check(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), "set a chunk");
+  if (compressed) compress(properties);
   const Space space(H5Screate_simple(static_cast<int>(chunk.size()), with_length(0, row).data(),
                                      with_length(H5S_UNLIMITED, row).data()),
                     "make a data space");

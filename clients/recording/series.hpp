@@ -1,6 +1,7 @@
 #pragma once
 
 #include "clients/recording/hdf5.hpp"
+#include "clients/recording/storage.hpp"
 
 namespace sluice::clients::h5 {
 
@@ -10,8 +11,9 @@ class Series {
  public:
   Series() = default;
   template <typename T>
-  static Series create(hid_t file, const std::string& path, const Shape& row, const std::string& unit) {
-    return create(file, path, file_type<T>(), row, sizeof(T), unit);
+  static Series create(hid_t file, const std::string& path, const Shape& row, const std::string& unit,
+                       Storage storage = Storage::kPlain) {
+    return create(file, path, file_type<T>(), row, sizeof(T), unit, storage);
   }
   // Throws Error when it is absent or its rows have another shape.
   static Series open(hid_t file, const std::string& path, const Shape& row);
@@ -41,7 +43,7 @@ class Series {
 
  private:
   static Series create(hid_t file, const std::string& path, hid_t type, const Shape& row, std::size_t element,
-                       const std::string& unit);
+                       const std::string& unit, Storage storage);
   void append_raw(hid_t memory, const void* data, std::size_t count);
   void read_raw(hid_t memory, void* data, hsize_t first, hsize_t count) const;
   [[nodiscard]] Space rows(hsize_t first, hsize_t count) const;

@@ -35,13 +35,15 @@ protocol::StepClock clock_of(const Welcome& welcome) {
 
 class Writer::File {
  public:
-  File(OutputFile output, const Message& message) : File(std::move(output), message.header.welcome()) {
+  File(OutputFile output, const Message& message, h5::Storage storage)
+      : File(std::move(output), message.header.welcome()) {
     write_prologue(file_, message);
     const Welcome& welcome = message.header.welcome();
     frames_ = FrameTable::create(file_, welcome.fluid_particles(), bodies_,
-                                 static_cast<hsize_t>(welcome.scene().probe_size()));
-    exchanges_ = ExchangeTable::create(file_, bodies_);
-    h5::check(H5Fstart_swmr_write(file_), "start single-writer multiple-reader mode");
+                                 static_cast<hsize_t>(welcome.scene().probe_size()), storage);
+    exchanges_ = ExchangeTable::create(file_, bodies_, storage);
+    if (storage == h5::Storage::kPlain)
+      h5::check(H5Fstart_swmr_write(file_), "start single-writer multiple-reader mode");
     flush();
     output_.keep();
   }
@@ -87,12 +89,12 @@ class Writer::File {
   std::optional<ExchangeTable> exchanges_;
 };
 
-Writer::Writer(OutputFile file, const Message& welcome) {
+Writer::Writer(OutputFile file, const Message& welcome, h5::Storage storage) {
   h5::silence();
   if (!welcome.header.has_welcome()) throw ProtocolError("a recording starts with a Welcome");
   const std::string name = file.path().string();
   try {
-    file_ = std::make_unique<File>(std::move(file), welcome);
+    file_ = std::make_unique<File>(std::move(file), welcome, storage);
   } catch (const h5::Error& error) {
     throw InputError(fmt::format("{}: {}", name, error.what()));
   }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "clients/recording/output_file.hpp"
+#include "clients/recording/storage.hpp"
 #include "protocol/message.hpp"
 
 namespace sluice::clients {
@@ -15,7 +16,8 @@ class Writer {
  public:
   // Creates the file with all its datasets from the Welcome of a recorder. Throws ProtocolError when the
   // Welcome is incomplete and InputError when the file cannot be written.
-  Writer(OutputFile file, const protocol::Message& welcome);
+  // A compressed file is for what is copied from another: what is not finished is lost.
+  Writer(OutputFile file, const protocol::Message& welcome, h5::Storage storage = h5::Storage::kPlain);
   ~Writer();
   Writer(Writer&&) noexcept;
   Writer& operator=(Writer&&) = delete;

@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include "clients/record/program.hpp"
 #include "clients/replay/publication.hpp"
@@ -11,7 +12,7 @@ using namespace sluice;
 
 struct Arguments {
   std::string recording, keys;
-  bool redrive = false, no_wait = false;
+  bool redrive = false, no_wait = false, control = false;
   int threads = 0;
   clients::PublicationOptions publication;
 };
@@ -21,6 +22,7 @@ int publish(const clients::Reader& recording, Arguments arguments) {
   if (!arguments.keys.empty()) options.keys = protocol::ServerKeys::load(arguments.keys);
   if (options.endpoint.empty()) options.endpoint = protocol::private_endpoint();
   options.wait = !arguments.no_wait;
+  if (arguments.control) options.control = STDIN_FILENO;
   fmt::print("{}\n", options.endpoint);
   std::fflush(stdout);
   if (options.wait) spdlog::info("starts when somebody watches: sluice watch --connect {}", options.endpoint);
@@ -47,6 +49,10 @@ int main(int argc, char** argv) {
   app.add_option("--speed", arguments.publication.speed, "Simulated over wall-clock time")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--from", arguments.publication.from, "Simulated time [s] to start at")
+      ->check(CLI::NonNegativeNumber);
+  app.add_flag("--control", arguments.control,
+               "Read commands from stdin: pause, play, step [N], seek T, speed X, quit");
   app.add_flag("--no-wait", arguments.no_wait, "Start before anybody watches");
   app.add_option("--keys", arguments.keys, "Directory of keys (sluice keygen); lets other machines watch");
   auto* redrive =

@@ -7,6 +7,8 @@
 #include <random>
 
 #include "clients/record/connection.hpp"
+#include "clients/replay/line_input.hpp"
+#include "clients/replay/playback.hpp"
 #include "protocol/endpoint.hpp"
 #include "protocol/framing.hpp"
 #include "protocol/version.hpp"
@@ -45,7 +47,8 @@ class Publication {
         stop_(stop),
         endpoint_(protocol::Endpoint::parse(options.endpoint, options.keys.has_value())),
         lock_(endpoint_),
-        welcome_(make_welcome()) {
+        welcome_(make_welcome()),
+        control_(options.control) {
     if (options.keys) {
       authenticator_.emplace(context_, *options.keys);
       for (zmq::socket_t* socket : {&exchange_, &publish_}) authenticator_->secure(*socket);
@@ -57,13 +60,13 @@ class Publication {
   void run() {
     while (options_.wait && !watched_ && !stop_) serve(kSlice);
     start_ = status_at_ = Clock::now();
-    for (std::uint64_t index = 0; index < recording_.frames() && !stop_; ++index) {
-      Message frame = recording_.frame(index);
-      wait_until(due(frame.header.time_ns()));
-      if (stop_) break;
-      step_ = frame.header.step();
-      time_ns_ = frame.header.time_ns();
-      protocol::send(publish_, frame, "frame");
+    playback_.emplace(times(), options_.speed, options_.from, start_);
+    // With somebody at the controls the end is not the end.
+    while (!stop_ && !playback_->has_quit() && (!playback_->is_at_end() || control_.is_open())) {
+      const auto due = playback_->due();
+      const auto left = due ? std::chrono::ceil<milliseconds>(*due - Clock::now()) : kSlice;
+      serve(std::clamp(left, milliseconds(0), kSlice));
+      if (const auto now_due = playback_->due(); now_due && *now_due <= Clock::now()) show(playback_->take());
     }
     publish_status();
     Message end = stamped();
@@ -82,28 +85,40 @@ class Publication {
     return message;
   }
 
-  // When a frame is due on the wall clock.
-  [[nodiscard]] Clock::time_point due(std::int64_t time_ns) const {
-    const std::chrono::duration<double, std::nano> after(static_cast<double>(time_ns) / options_.speed);
-    return start_ + std::chrono::duration_cast<Clock::duration>(after);
+  [[nodiscard]] std::vector<std::int64_t> times() const {
+    std::vector<std::int64_t> all;
+    for (std::uint64_t index = 0; index < recording_.frames(); ++index)
+      all.push_back(recording_.frame_header(index).time_ns());
+    return all;
   }
 
-  void wait_until(Clock::time_point when) {
-    do {
-      const auto left = std::chrono::duration_cast<milliseconds>(when - Clock::now());
-      serve(std::clamp(left, milliseconds(0), kSlice));
-    } while (Clock::now() < when && !stop_);
+  void show(std::uint64_t index) {
+    const Message frame = recording_.frame(index);
+    step_ = frame.header.step();
+    time_ns_ = frame.header.time_ns();
+    protocol::send(publish_, frame, "frame");
   }
 
   void serve(milliseconds timeout) {
-    zmq::pollitem_t items[] = {{exchange_.handle(), 0, ZMQ_POLLIN, 0}, {publish_.handle(), 0, ZMQ_POLLIN, 0}};
+    std::vector<zmq::pollitem_t> items{{exchange_.handle(), 0, ZMQ_POLLIN, 0},
+                                       {publish_.handle(), 0, ZMQ_POLLIN, 0}};
+    if (playback_ && control_.is_open()) items.push_back(control_.poll_item());
     wait_for_any(items, timeout);
+    if (items.size() > 2 && items[2].revents != 0) obey();
     zmq::message_t event;
     while (publish_.recv(event, zmq::recv_flags::dontwait))
       watched_ = watched_ || (event.size() > 0 && *event.data<char>() == 1);
     while (answer_next()) {
     }
     if (watched_ && step_ > 0 && Clock::now() - status_at_ > kStatusEvery) publish_status();
+  }
+
+  void obey() {
+    for (const std::string& line : control_.read()) try {
+        playback_->obey(line, Clock::now());
+      } catch (const protocol::InputError& error) {
+        spdlog::warn("{}", error.what());
+      }
   }
 
   // Anyone can send anything to a socket: what is not a message is dropped.
@@ -186,6 +201,8 @@ class Publication {
   zmq::socket_t exchange_ = protocol::make_socket(context_, zmq::socket_type::router);
   zmq::socket_t publish_ = protocol::make_socket(context_, zmq::socket_type::xpub);
   Message welcome_;
+  LineInput control_;
+  std::optional<Playback> playback_;
   std::map<std::string, std::uint64_t> tokens_;
   std::random_device random_;
   bool watched_ = false;

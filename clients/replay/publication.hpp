@@ -12,7 +12,9 @@ namespace sluice::clients {
 struct PublicationOptions {
   std::string endpoint;
   double speed = 1;  // simulated over wall-clock time
+  double from = 0;   // simulated [s] to start at
   bool wait = true;  // for somebody who watches, before it starts
+  int control = -1;  // descriptor that commands come from, a line each (playback.hpp); -1: none
   std::optional<protocol::ServerKeys> keys;
 };
 

@@ -18,6 +18,7 @@ class Aitken {
     return omega_;
   }
   [[nodiscard]] double omega() const { return omega_; }
+  void set_omega(double omega) { omega_ = omega; }
 
  private:
   // The liquid resists: the answer falls as the guess rises, and the share lies between 0 and 1. A negative

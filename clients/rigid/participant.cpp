@@ -9,6 +9,7 @@
 #include "clients/rigid/convert.hpp"
 #include "clients/rigid/participant_link.hpp"
 #include "clients/rigid/window.hpp"
+#include "protocol/build_id.hpp"
 #include "protocol/scene_check.hpp"
 #include "protocol/sim_time.hpp"
 
@@ -80,7 +81,11 @@ class Participant {
                welcome.header.welcome().steps()),
         coupling_(welcome.header.welcome().coupling()),
         window_(world_, coupling_, gravity_of(welcome.header.welcome().scene()),
-                indicators(welcome.header.welcome()), read_wrenches(welcome, 1, world_.size()).front()) {}
+                indicators(welcome.header.welcome()), read_wrenches(welcome, 1, world_.size()).front()),
+        done_(welcome.header.welcome().done()),
+        wants_state_(welcome.header.welcome().wants_state()) {
+    if (done_ > 0) go_on_from(welcome);
+  }
 
   End run() {
     spdlog::info("{} {}, {} steps, {}", world_.size(), world_.size() == 1 ? "body" : "bodies", clock_.steps(),
@@ -99,6 +104,35 @@ class Participant {
     std::uint32_t count;
   };
 
+  // Prescribed bodies stand where their motion is; free ones where they were.
+  void go_on_from(const protocol::Message& welcome) {
+    if (!world_.has_free_bodies()) {
+      (void)world_.predict(protocol::seconds(clock_.time(done_)), duration(done_));
+      return;
+    }
+    const std::string& its = welcome.header.welcome().state_build();
+    if (its != protocol::build_id())
+      throw protocol::InputError(fmt::format(
+          "the state of the bodies is of another build of sluice-rigid ({}; this one is {}), where "
+          "they would not go on to the last bit; resume with that one",
+          its, protocol::build_id()));
+    try {
+      window_.read_state(welcome.array<double>("state"));
+    } catch (const std::invalid_argument& error) {
+      throw protocol::ProtocolError(error.what());
+    }
+  }
+
+  void give_state(std::uint64_t step) {
+    const std::vector<double> state = window_.write_state();
+    protocol::Message message;
+    message.header.set_step(step);
+    message.header.mutable_state()->set_step(step);
+    message.header.mutable_state()->set_build(protocol::build_id());
+    message.add_array<double>("state", state, {state.size()});
+    link_.send(std::move(message));
+  }
+
   [[nodiscard]] std::string exchange_text() const {
     if (!world_.has_free_bodies()) return "all prescribed, streamed ahead";
     return fmt::format("exchanges of {} step(s), {}", most_steps(),
@@ -112,9 +146,14 @@ class Participant {
   }
 
   void exchange() {
-    for (std::uint64_t first = 1; first <= clock_.steps();) {
+    for (std::uint64_t first = done_ + 1; first <= clock_.steps();) {
       const std::uint64_t last = clock_.exchange_end(first, most_steps());
       if (!exchange({first, static_cast<std::uint32_t>(last - first + 1)})) break;
+      if (clock_.is_output(last)) {
+        // Whether anybody keeps the state or not: what follows must be the same.
+        world_.renew_contact();
+        if (wants_state_) give_state(last);
+      }
       first = last + 1;
     }
     if (is_iterated() && exchanges_ > 0)
@@ -171,7 +210,7 @@ class Participant {
   }
 
   void stream() {
-    for (std::uint64_t first = 1; first <= clock_.steps() && !end_; first += kBatch) {
+    for (std::uint64_t first = done_ + 1; first <= clock_.steps() && !end_; first += kBatch) {
       stream(
           {first, static_cast<std::uint32_t>(std::min<std::uint64_t>(kBatch, clock_.steps() - first + 1))});
       while (unanswered_.size() >= kUnanswered && next_answer()) {
@@ -236,6 +275,8 @@ class Participant {
   protocol::StepClock clock_;
   Coupling coupling_;
   Window window_;
+  std::uint64_t done_;  // steps, before this process took part
+  bool wants_state_;
   std::vector<double> ledger_;  // at the beginning of the exchange
   std::uint64_t exchanges_ = 0, iterations_ = 0, given_up_ = 0;
   double largest_residual_ = 0;

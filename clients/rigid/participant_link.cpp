@@ -48,6 +48,7 @@ protocol::Message ParticipantLink::greet(Role role, const std::string& program) 
   protocol::Message hello;
   hello.header.mutable_hello()->set_role(role);
   hello.header.mutable_hello()->set_program(program);
+  hello.header.mutable_hello()->set_gives_state(role == RIGID);
   send(std::move(hello));
   protocol::Message answer = wait();
   if (!answer.header.has_welcome())

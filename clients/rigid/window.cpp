@@ -1,6 +1,7 @@
 #include "clients/rigid/window.hpp"
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace sluice::clients {
@@ -120,6 +121,28 @@ void Window::finish(const std::vector<Wrenches>& answer, const Wrenches& missing
   for (std::size_t b = 0; b < mean_.size(); ++b) {
     for (std::size_t k = 0; k + 1 < answer.size(); ++k) mean_[b] = mean_[b] + answer[k][b];
     mean_[b] = 1.0 / static_cast<double>(answer.size()) * mean_[b];
+  }
+}
+
+std::vector<double> Window::write_state() {
+  std::vector<double> row = world_.write_state();
+  for (std::size_t b = 0; b < world_.size(); ++b) {
+    row.insert(row.end(), mean_[b].force.begin(), mean_[b].force.end());
+    row.insert(row.end(), mean_[b].moment.begin(), mean_[b].moment.end());
+    row.push_back(aitken_[b].omega());
+  }
+  return row;
+}
+
+void Window::read_state(std::span<const double> row) {
+  constexpr std::size_t kOwn = 7;  // numbers of a body here
+  const std::span<const double> own = world_.read_state(row);
+  if (own.size() != kOwn * world_.size())
+    throw std::invalid_argument("the state of the bodies is that of another scene");
+  for (std::size_t b = 0; b < world_.size(); ++b) {
+    const double* numbers = own.data() + kOwn * b;
+    mean_[b] = {Eigen::Vector3d(numbers), Eigen::Vector3d(numbers + 3)};
+    aitken_[b].set_omega(numbers[6]);
   }
 }
 

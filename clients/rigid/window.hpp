@@ -40,6 +40,12 @@ class Window {
   // fluid gave; false when it is to be predicted again.
   bool accept(const std::vector<Wrenches>& answer);
 
+  // Between two exchanges: the bodies' state and what the next exchange takes from this one, as numbers; and
+  // back, for bodies whose `initial` wrenches were those of that time. read_state throws
+  // std::invalid_argument when the numbers are not those of such bodies.
+  [[nodiscard]] std::vector<double> write_state();
+  void read_state(std::span<const double> row);
+
   [[nodiscard]] int iterations() const { return iterations_; }
   [[nodiscard]] double residual() const { return residual_; }
 

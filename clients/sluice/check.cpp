@@ -5,9 +5,25 @@
 
 #include <iostream>
 
+#include "clients/recording/size.hpp"
 #include "clients/sluice/progress.hpp"
 
 namespace sluice::clients {
+
+namespace {
+
+std::string with_recording(const Estimate& estimate, const Scene& scene) {
+  const std::uint64_t bytes = recording_bytes({.fluid_particles = estimate.fluid_particles,
+                                               .boundary_particles = estimate.boundary_particles,
+                                               .bodies = static_cast<std::uint64_t>(scene.body_size()),
+                                               .probes = static_cast<std::uint64_t>(scene.probe_size()),
+                                               .frames = estimate.frames,
+                                               .steps = estimate.steps});
+  return fmt::format("{}; a recording has {} frames and {:.0f} MB", to_string(estimate), estimate.frames,
+                     1e-6 * static_cast<double>(bytes));
+}
+
+}  // namespace
 
 Estimate require_sound(const CheckOptions& options) {
   const auto file = protocol::SceneFile::load(options.scene, options.overrides);
@@ -25,7 +41,9 @@ std::string to_string(const Estimate& estimate) {
 
 int check(const CheckOptions& options) {
   const Estimate estimate = require_sound(options);
-  std::cout << fmt::format("{}: no errors; {}\n", options.scene.string(), to_string(estimate)) << std::flush;
+  const Scene scene = protocol::SceneFile::load(options.scene, options.overrides).scene();
+  std::cout << fmt::format("{}: no errors; {}\n", options.scene.string(), with_recording(estimate, scene))
+            << std::flush;
   return protocol::kDone;
 }
 

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "clients/recording/archive.hpp"
 #include "clients/recording/inspect.hpp"
+#include "clients/recording/repair.hpp"
 #include "clients/sluice/check.hpp"
 #include "clients/sluice/run.hpp"
 #include "clients/sluice/siblings.hpp"
@@ -67,24 +69,46 @@ void add_scene(CLI::App& command, CheckOptions& options) {
       ->take_all();
 }
 
+// What a run takes, whether it starts or goes on.
+void add_run_options(CLI::App& run, RunOptions& options) {
+  run.add_flag("--force", options.force, "Replace an existing recording");
+  run.add_option("--checkpoint-every", options.checkpoint_every,
+                 "Write a checkpoint at each multiple of this simulated time [s]; default every five minutes")
+      ->check(CLI::PositiveNumber)
+      ->type_name("T");
+  run.add_option("--threads", options.threads, "Threads of the server; default all processors")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  run.add_option("--until", options.until, "Simulated time [s] to stop at, before the scene's duration")
+      ->check(CLI::PositiveNumber)
+      ->type_name("T");
+  run.add_option("--listen", options.listen, "Where watchers can connect; default a private endpoint")
+      ->type_name("ENDPOINT");
+  run.add_option("--keys", options.keys, "Directory of CURVE keys (sluice keygen)")->type_name("DIR");
+  run.add_flag("--json", options.json, "Print the summary as one JSON object");
+  run.add_flag("--verbose", options.verbose, "Show what the processes log");
+}
+
 CLI::App* add_run(CLI::App& app, RunOptions& options) {
   CLI::App* run =
       app.add_subcommand("run", "Check a scene and run it: server, rigid bodies and recorder together");
   add_scene(*run, options.check);
   run->add_option("-o,--output", options.output, "Record to this file")->type_name("RUN.h5");
-  run->add_flag("--force", options.force, "Replace an existing recording");
-  run->add_option("--threads", options.threads, "Threads of the server; default all processors")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
-  run->add_option("--until", options.until, "Simulated time [s] to stop at, before the scene's duration")
-      ->check(CLI::PositiveNumber)
-      ->type_name("T");
-  run->add_option("--listen", options.listen, "Where watchers can connect; default a private endpoint")
-      ->type_name("ENDPOINT");
-  run->add_option("--keys", options.keys, "Directory of CURVE keys (sluice keygen)")->type_name("DIR");
-  run->add_flag("--json", options.json, "Print the summary as one JSON object");
-  run->add_flag("--verbose", options.verbose, "Show what the processes log");
+  add_run_options(*run, options);
   return run;
+}
+
+CLI::App* add_resume(CLI::App& app, RunOptions& options) {
+  CLI::App* resume = app.add_subcommand("resume", "Go on with a run from a checkpoint, bit for bit");
+  resume->add_option("checkpoint", options.resume, "RUN.checkpoint")->required();
+  resume
+      ->add_option("--recording", options.recording,
+                   "The recording of the run so far; default the one beside the checkpoint")
+      ->type_name("RUN.h5");
+  resume->add_option("-o,--output", options.output, "Record to this file; default the recording so far")
+      ->type_name("NEW.h5");
+  add_run_options(*resume, options);
+  return resume;
 }
 
 int make_keys(const std::string& directory) {
@@ -102,6 +126,16 @@ int inspect_file(const std::string& path, bool json) {
   return protocol::kDone;
 }
 
+int repair_file(const std::string& path, const std::string& output) {
+  std::cout << to_text(repair(path, output), path) << std::flush;
+  return protocol::kDone;
+}
+
+int archive_file(const std::string& path, const std::string& copy, bool force) {
+  std::cout << archive(path, copy, force) << std::flush;
+  return protocol::kDone;
+}
+
 int front_end(int argc, char** argv) {
   CLI::App app{
       "Free-surface flow with moving bodies: moving-least-squares SPH and Bullet as separate processes."};
@@ -110,11 +144,12 @@ int front_end(int argc, char** argv) {
   app.set_version_flag("--version",
                        fmt::format("sluice {} (protocol {})", SLUICE_VERSION, protocol::kProtocolVersion));
 
-  RunOptions run_options;
+  RunOptions run_options, resume_options;
   CheckOptions check_options;
   std::string recording, key_directory;
   bool json = false;
   CLI::App* run_command = add_run(app, run_options);
+  CLI::App* resume_command = add_resume(app, resume_options);
   CLI::App* check_command =
       app.add_subcommand("check", "Say what is wrong with a scene, and what it will cost");
   add_scene(*check_command, check_options);
@@ -125,6 +160,16 @@ int front_end(int argc, char** argv) {
   for (const Forwarded& python : kPython) add_forwarding(app, python.command, python.what);
   CLI::App* python_command =
       add_forwarding(app, "python", "Run a Python program with the package sluice: PROGRAM.py ...");
+  std::string copy;
+  CLI::App* repair_command =
+      app.add_subcommand("repair", "Make a recording whole whose recorder was killed, or that is damaged");
+  repair_command->add_option("recording", recording, "RUN.h5")->required();
+  repair_command->add_option("-o,--output", copy, "Write the repaired recording there")->type_name("NEW.h5");
+  bool replace = false;
+  CLI::App* archive_command = app.add_subcommand("archive", "Copy a recording, compressed without loss");
+  archive_command->add_option("recording", recording, "RUN.h5")->required();
+  archive_command->add_option("-o,--output", copy, "The copy")->type_name("SMALL.h5")->required();
+  archive_command->add_flag("--force", replace, "Replace an existing file");
   CLI::App* keygen_command = app.add_subcommand("keygen", "Make CURVE keys for a server and a client");
   keygen_command->add_option("directory", key_directory, "DIR")->required();
 
@@ -142,7 +187,10 @@ int front_end(int argc, char** argv) {
       become_module(python.program, command->remaining());
   if (python_command->parsed()) become_python(python_command->remaining());
   if (run_command->parsed()) return run(run_options);
+  if (resume_command->parsed()) return resume(resume_options);
   if (check_command->parsed()) return check(check_options);
+  if (repair_command->parsed()) return repair_file(recording, copy);
+  if (archive_command->parsed()) return archive_file(recording, copy, replace);
   if (keygen_command->parsed()) return make_keys(key_directory);
   return inspect_file(recording, json);
 }

@@ -49,7 +49,7 @@ Session::Session(const RunOptions& options, const std::string& endpoint)
         progress_.clear();
         std::cerr << line << '\n';
       }) {
-  summary_.file = options.check.scene.string();
+  summary_.file = (options.resume.empty() ? options.check.scene : options.resume).string();
 }
 
 std::vector<std::string> Session::connection() const {
@@ -59,14 +59,24 @@ std::vector<std::string> Session::connection() const {
 }
 
 void Session::start_server() {
-  std::vector<std::string> arguments{"--scene", options_.check.scene.string(), "--listen", endpoint_};
-  for (const std::string& override : options_.check.overrides)
-    arguments.insert(arguments.end(), {"--set", override});
-  if (options_.until) arguments.insert(arguments.end(), {"--until", fmt::format("{}", *options_.until)});
-  if (options_.threads > 0)
-    arguments.insert(arguments.end(), {"--threads", std::to_string(options_.threads)});
-  if (!options_.output.empty()) arguments.emplace_back("--expect-recorder");
-  if (!options_.keys.empty()) arguments.insert(arguments.end(), {"--keys", options_.keys.string()});
+  std::vector<std::string> arguments{"--listen", endpoint_};
+  const auto add = [&](const char* option, const std::string& value) {
+    arguments.insert(arguments.end(), {option, value});
+  };
+  if (options_.resume.empty())
+    add("--scene", options_.check.scene.string());
+  else
+    add("--resume", options_.resume.string());
+  for (const std::string& override : options_.check.overrides) add("--set", override);
+  if (options_.until) add("--until", fmt::format("{}", *options_.until));
+  if (options_.threads > 0) add("--threads", std::to_string(options_.threads));
+  if (!options_.output.empty()) {
+    arguments.emplace_back("--expect-recorder");
+    add("--checkpoint", checkpoint_of(options_.output).string());
+    if (options_.checkpoint_every > 0)
+      add("--checkpoint-every", fmt::format("{}", options_.checkpoint_every));
+  }
+  if (!options_.keys.empty()) add("--keys", options_.keys.string());
   crew_.start("sluice-server", arguments);
 }
 
@@ -78,12 +88,15 @@ void Session::start_participants(const Welcome& welcome) {
   summary_.fluid_particles = welcome.fluid_particles();
   summary_.boundary_particles = welcome.boundary_particles();
   summary_.steps = welcome.steps();
+  summary_.step = summary_.done_before = welcome.done();
   summary_.duration = protocol::seconds(clock.time(welcome.steps()));
 
   if (!options_.output.empty()) {
     auto arguments = connection();
     arguments.insert(arguments.end(), {"-o", options_.output.string()});
     if (options_.force) arguments.emplace_back("--force");
+    if (!options_.recording.empty())
+      arguments.insert(arguments.end(), {"--resume", options_.recording.string()});
     crew_.start("sluice-record", arguments);
     summary_.recording = options_.output.string();
   }

@@ -40,7 +40,7 @@ std::string size_text(std::uint64_t bytes) {
 
 double Summary::particle_steps_per_second() const {
   if (wall_seconds <= 0) return 0;
-  return static_cast<double>(fluid_particles) * static_cast<double>(step) / wall_seconds;
+  return static_cast<double>(fluid_particles) * static_cast<double>(step - done_before) / wall_seconds;
 }
 
 std::string to_table(const Summary& summary) {
@@ -73,6 +73,7 @@ std::string to_json(const Summary& summary) {
             {"boundary_particles", summary.boundary_particles},
             {"step", summary.step},
             {"steps", summary.steps},
+            {"done_before", summary.done_before},
             {"time", summary.time},
             {"duration", summary.duration},
             {"wall_seconds", summary.wall_seconds},

@@ -15,10 +15,11 @@ struct Summary {
   unsigned dimension = 2;
   std::uint64_t fluid_particles = 0;
   std::uint64_t boundary_particles = 0;
-  std::uint64_t step = 0;   // done
-  std::uint64_t steps = 0;  // planned
-  double time = 0;          // simulated [s]
-  double duration = 0;      // planned [s]
+  std::uint64_t step = 0;         // done
+  std::uint64_t steps = 0;        // planned
+  std::uint64_t done_before = 0;  // of a run that was resumed
+  double time = 0;                // simulated [s]
+  double duration = 0;            // planned [s]
   double wall_seconds = 0;
   std::optional<Energy> start, end;
   std::string status;  // name of End.Reason; BAD_INPUT when nothing was started

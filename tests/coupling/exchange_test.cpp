@@ -65,7 +65,7 @@ bool has_probes(const Message& message) {
 TEST_F(ExchangeTest, ProbesComeWithTheAnswerThatEndsWithAnOutputToWhoAskedForThem) {
   server_ = std::make_unique<TestServer>(probed_gate());
   rigid_ = std::make_unique<Peer>(server_->endpoint());
-  const Message welcome = rigid_->hello(RIGID, true);
+  const Message welcome = rigid_->hello(RIGID, false, true);
   EXPECT_EQ(welcome.shape("probe"), (std::vector<std::uint64_t>{1, 6}));
   EXPECT_EQ(welcome.array<double>("probe")[0], 0.0);
   for (std::uint64_t step = 1; step <= 20; ++step) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstring>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <tuple>
 #include <vector>
 
@@ -49,6 +51,17 @@ class FakeSolver : public fluid::Solver {
 
   void save() override { saved_ = {steps_, state_, wrenches_}; }
   void restore() override { std::tie(steps_, state_, wrenches_) = saved_; }
+
+  // The step alone: whoever asks looks at what is done with it.
+  void write_state(std::vector<std::byte>& bytes) override {
+    bytes.resize(sizeof steps_);
+    std::memcpy(bytes.data(), &steps_, sizeof steps_);
+  }
+  void read_state(std::span<const std::byte> bytes) override {
+    if (bytes.size() != sizeof steps_) throw std::invalid_argument("state: 8 bytes are needed");
+    std::memcpy(&steps_, bytes.data(), sizeof steps_);
+    push();
+  }
 
   [[nodiscard]] std::span<const fluid::Wrench> wrenches() const override { return wrenches_; }
   [[nodiscard]] std::vector<fluid::WrenchParts> wrench_parts() const override {

@@ -14,14 +14,12 @@ namespace sluice::testing {
 class TestServer {
  public:
   explicit TestServer(const Scene& scene, server::Options options = {}, SolverScript given = {})
-      : script(std::move(given)),
-        simulation_(server::make_simulation(
-            scene, 1,
-            [this](const fluid::Setup& setup) { return std::make_unique<FakeSolver>(setup, script); })),
-        sockets_(protocol::Endpoint::parse(directory_.endpoint())) {
-    options.interrupted = &interrupted_;
-    outcome_ = std::async(std::launch::async,
-                          [this, options] { return server::run(simulation_, sockets_, options); });
+      : script(std::move(given)), simulation_(server::make_simulation(scene, 1, factory())) {
+    start(options);
+  }
+  TestServer(protocol::CheckpointFile checkpoint, server::Options options)
+      : simulation_(server::resume_simulation(std::move(checkpoint), 1, factory())) {
+    start(options);
   }
   ~TestServer() {
     interrupted_ = true;
@@ -38,9 +36,18 @@ class TestServer {
   SolverScript script;  // to be read after outcome()
 
  private:
+  server::SolverFactory factory() {
+    return [this](const fluid::Setup& setup) { return std::make_unique<FakeSolver>(setup, script); };
+  }
+  void start(server::Options options) {
+    options.interrupted = &interrupted_;
+    outcome_ = std::async(std::launch::async,
+                          [this, options] { return server::run(simulation_, sockets_, options); });
+  }
+
   Directory directory_;
   server::Simulation simulation_;
-  server::Sockets sockets_;
+  server::Sockets sockets_{protocol::Endpoint::parse(directory_.endpoint())};
   std::atomic<bool> interrupted_{false};
   std::future<server::Outcome> outcome_;
 };

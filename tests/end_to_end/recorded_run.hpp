@@ -42,6 +42,8 @@ class RecordedRun : public testing::Test {
     return clients::Reader(directory_.path() / recording);
   }
 
+  [[nodiscard]] std::filesystem::path path(const std::string& name) const { return directory_.path() / name; }
+
  private:
   TemporaryDirectory directory_;
 };

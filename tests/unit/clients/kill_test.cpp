@@ -1,76 +1,20 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <csignal>
-#include <functional>
 #include <random>
 
 #include "clients/recording/reader.hpp"
+#include "clients/recording/repair.hpp"
 #include "clients/recording/writer.hpp"
 #include "tests/unit/clients/fake_run.hpp"
+#include "tests/unit/clients/killed.hpp"
 
 namespace sluice::clients::test {
 namespace {
 
 using std::chrono::microseconds;
-using std::chrono::steady_clock;
-
-constexpr std::uint64_t kFinished = ~std::uint64_t{0};
-
-// Records as the recorder does, several messages to a flush, and tells the pipe how many frames are on disk.
-void record_aloud(const FakeRun& run, const std::filesystem::path& path, int pipe, bool force = false) {
-  const auto tell = [&](std::uint64_t frames) {
-    if (write(pipe, &frames, sizeof frames) != sizeof frames) _exit(1);
-  };
-  Writer writer(OutputFile(path, force), run.welcome());
-  tell(0);
-  for (std::uint64_t index = 0; index <= run.frames; ++index) {
-    if (index > 0) writer.write(run.exchange_log(index));
-    writer.write(run.frame(index));
-    if (index % 4 == 3) continue;
-    writer.flush();
-    tell(index + 1);
-  }
-  writer.finish("FINISHED", "");
-  tell(kFinished);
-}
-
-struct Killed {
-  std::uint64_t acknowledged;  // frames, or kFinished
-  int status;                  // of the process
-};
-
-// Runs `action` in a process of its own and kills it `delay` after it has acknowledged `frames`.
-Killed kill_after(const std::function<void(int pipe)>& action, std::uint64_t frames, microseconds delay) {
-  int ends[2];
-  if (pipe(ends) != 0) throw std::system_error(errno, std::generic_category());
-  const pid_t child = fork();
-  if (child == 0) {
-    close(ends[0]);
-    try {
-      action(ends[1]);
-    } catch (...) {
-      _exit(3);
-    }
-    _exit(0);
-  }
-  close(ends[1]);
-  Killed result{};
-  const auto next = [&] { return read(ends[0], &result.acknowledged, sizeof(std::uint64_t)) > 0; };
-  while (next() && result.acknowledged < frames) {
-  }
-  for (const auto end = steady_clock::now() + delay; steady_clock::now() < end;) {
-  }
-  kill(child, SIGKILL);
-  while (next()) {
-  }
-  waitpid(child, &result.status, 0);
-  close(ends[0]);
-  return result;
-}
 
 void expect_acknowledged_frames(const std::filesystem::path& path, const FakeRun& run,
                                 std::uint64_t acknowledged) {
@@ -107,8 +51,12 @@ TEST(Kill, EveryAcknowledgedFrameStaysReadable) {
     const Killed killed = kill_after([&](int pipe) { record_aloud(run, path, pipe); }, frames, delay);
     unfinished += killed.acknowledged == kFinished ? 0 : 1;
     expect_acknowledged_frames(path, run, killed.acknowledged);
+    repair(path, {});
+    EXPECT_EQ(Reader(path).ending(), Ending::kFinished);
+    expect_acknowledged_frames(path, run, killed.acknowledged);
     if (HasFailure()) return;
-    std::filesystem::remove(path);
+    for (const char* suffix : {".h5", ".damaged.h5", ".xdmf"})
+      std::filesystem::remove(directory / ("run" + std::to_string(i) + suffix));
   }
   EXPECT_GT(unfinished, kills / 3) << "the kills came too late to say anything";
 }

@@ -21,10 +21,12 @@ class RecorderTest : public testing::Test {
   std::future<RecordOutcome> start() {
     return std::async(std::launch::async, [this] { return record(options_, stop_); });
   }
-  void welcome() {
+  void welcome(std::uint64_t done = 0) {
     const protocol::Message hello = server_.receive();
     EXPECT_EQ(hello.header.hello().role(), RECORDER);
-    server_.reply(run_.welcome());
+    protocol::Message welcome = run_.welcome();
+    welcome.header.mutable_welcome()->set_done(done);
+    server_.reply(std::move(welcome));
   }
   void push_frames(std::uint64_t first, std::uint64_t last) {
     for (std::uint64_t index = first; index <= last; ++index) {
@@ -111,6 +113,52 @@ TEST_F(RecorderTest, FinishesTheFileWhenTheStreamBreaksTheProtocol) {
   EXPECT_EQ(how.reason, "protocol error");
   EXPECT_THAT(how.detail, HasSubstr("frame 7"));
   EXPECT_EQ(Reader(directory_ / "run.h5").frames(), 2);
+}
+
+// The frames after the checkpoint are recorded again, and none twice.
+TEST_F(RecorderTest, GoesOnWithTheRecordingOfAResumedRun) {
+  record(run_, directory_ / "run.h5");
+  options_.resume = options_.output;
+  auto outcome = start();
+  welcome(4 * run_.steps_per_frame);
+  push_frames(5, 6);
+  server_.push(end(End::FINISHED));
+  server_.await_acknowledgement(server_.pushed());
+  EXPECT_TRUE(outcome.get().complete);
+  const Reader recording(directory_ / "run.h5");
+  EXPECT_EQ(recording.welcome().done(), 0u);
+  ASSERT_EQ(recording.frames(), 7u);
+  for (std::uint64_t index = 0; index < 7; ++index) expect_same(recording.frame(index), run_.frame(index));
+  EXPECT_EQ(recording.exchanges(), 6 * run_.steps_per_frame);
+}
+
+// As long as nothing has come of the resumed run, the recording so far stays where it is.
+TEST_F(RecorderTest, KeepsTheRecordingOfARunThatDoesNotGoOn) {
+  record(run_, directory_ / "run.h5");
+  const std::string before = bytes_of(directory_ / "run.h5");
+  options_.resume = options_.output;
+  auto outcome = start();
+  welcome(4 * run_.steps_per_frame);
+  server_.push(end(End::PARTICIPANT_TIMEOUT));
+  EXPECT_EQ(outcome.get().reason, "PARTICIPANT_TIMEOUT");
+  EXPECT_TRUE(bytes_of(directory_ / "run.h5") == before);
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "run.h5.resumed"));
+}
+
+TEST_F(RecorderTest, RefusesARecordingThatEndsBefore) {
+  record({.frames = 3}, directory_ / "run.h5");
+  options_.resume = options_.output;
+  auto outcome = start();
+  welcome(4 * run_.steps_per_frame);
+  EXPECT_THAT([&] { outcome.get(); },
+              testing::ThrowsMessage<protocol::InputError>(HasSubstr("holds 4 frames")));
+}
+
+TEST_F(RecorderTest, AsksForTheRecordingOfAResumedRun) {
+  auto outcome = start();
+  welcome(4 * run_.steps_per_frame);
+  EXPECT_THAT([&] { outcome.get(); }, testing::ThrowsMessage<protocol::InputError>(HasSubstr("--resume")));
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "run.h5"));
 }
 
 TEST_F(RecorderTest, LeavesNothingWhenItIsRefused) {

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <future>
 
@@ -84,6 +85,35 @@ TEST_F(PublicationTest, GivesAWatcherWhatTheServerGave) {
   EXPECT_EQ(end->reason(), End::FINISHED);
   EXPECT_EQ(end->detail(), "all steps done");
   replay.get();
+}
+
+TEST_F(PublicationTest, ObeysWhoeverIsAtTheControls) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  options_.control = ends[0];
+  options_.speed = 1e-6;
+  auto replay = start();
+  subscribe();
+  const auto next_frame = [&]() -> std::uint64_t {
+    while (auto received = protocol::receive_within(news_, kPatience))
+      if (received->message.header.has_frame()) return received->message.header.frame().index();
+    return ~std::uint64_t{0};
+  };
+  const auto tell = [&](const std::string& text) {
+    EXPECT_EQ(write(ends[1], text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  };
+  EXPECT_EQ(next_frame(), 0u);
+  tell("step 2\n");
+  EXPECT_EQ(next_frame(), 1u);
+  EXPECT_EQ(next_frame(), 2u);
+  tell("nonsense\nseek 0.1\nst");
+  EXPECT_EQ(next_frame(), 10u);
+  tell("ep -1\n");
+  EXPECT_EQ(next_frame(), 9u);
+  tell("quit\n");
+  replay.get();
+  close(ends[0]);
+  close(ends[1]);
 }
 
 TEST_F(PublicationTest, WaitsForAWatcherUntilItIsStopped) {

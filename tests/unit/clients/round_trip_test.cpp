@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include "clients/recording/archive.hpp"
 #include "clients/recording/inspect.hpp"
 #include "clients/recording/reader.hpp"
+#include "clients/recording/size.hpp"
 #include "clients/recording/writer.hpp"
 #include "tests/unit/clients/fake_run.hpp"
 
@@ -197,6 +199,42 @@ TEST_F(Structure, HasAnXdmfCompanionForEveryFrame) {
   const std::string xdmf = bytes_of(directory_ / "run.xdmf");
   EXPECT_THAT(xdmf, HasSubstr("<Time Value=\"0.2\"/>"));
   EXPECT_THAT(xdmf, HasSubstr("run.h5:/particles/fluid/pressure/value"));
+}
+
+// Large enough that the file's own structure does not count.
+TEST(RecordingSize, IsThatOfTheFile) {
+  const TemporaryDirectory directory;
+  const FakeRun run{.particles = 2000, .bodies = 2, .steps_per_frame = 40, .frames = 50};
+  record(run, directory / "run.h5");
+  const Welcome welcome = run.welcome().header.welcome();
+  const double expected =
+      static_cast<double>(recording_bytes({.fluid_particles = run.particles,
+                                           .boundary_particles = welcome.boundary_particles(),
+                                           .bodies = 2,
+                                           .probes = 0,
+                                           .frames = run.frames + 1,
+                                           .steps = run.frames * run.steps_per_frame}));
+  EXPECT_NEAR(static_cast<double>(std::filesystem::file_size(directory / "run.h5")), expected,
+              0.05 * expected);
+}
+
+TEST(Archive, HoldsTheSameInLess) {
+  const TemporaryDirectory directory;
+  const FakeRun run{.particles = 500, .bodies = 2, .steps_per_frame = 5, .frames = 30};
+  record(run, directory / "run.h5");
+  EXPECT_THAT(archive(directory / "run.h5", directory / "small.h5", false), testing::HasSubstr("small.h5"));
+  EXPECT_LT(std::filesystem::file_size(directory / "small.h5"),
+            std::filesystem::file_size(directory / "run.h5"));
+  const Reader whole(directory / "run.h5"), small(directory / "small.h5");
+  EXPECT_EQ(small.reason(), whole.reason());
+  EXPECT_EQ(small.run_id(), whole.run_id());
+  ASSERT_EQ(small.frames(), whole.frames());
+  for (std::uint64_t index = 0; index < whole.frames(); ++index)
+    expect_same(small.frame(index), whole.frame(index));
+  ASSERT_EQ(small.exchanges(), whole.exchanges());
+  expect_same(small.exchange_log(1, 150), whole.exchange_log(1, 150));
+  EXPECT_THROW((void)archive(directory / "run.h5", directory / "small.h5", false), protocol::InputError);
+  EXPECT_THROW((void)archive(directory / "run.h5", directory / "run.h5", true), protocol::InputError);
 }
 
 }  // namespace

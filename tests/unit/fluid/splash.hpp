@@ -41,6 +41,15 @@ class Splash {
     solver_->step(dt_, bodies());
   }
 
+  // The same splash at a later time, in a solver that was never started.
+  void go_on(double time, std::span<const std::byte> state) {
+    solver_ = make_solver(scene_.setup);
+    solver_->read_state(state);
+    time_ = time;
+  }
+  [[nodiscard]] double time() const { return time_; }
+  void set_time(double time) { time_ = time; }
+
   [[nodiscard]] const Solver& solver() const { return *solver_; }
   [[nodiscard]] Solver& solver() { return *solver_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }

@@ -289,6 +289,49 @@ TEST(World, starts_from_the_wrench_at_time_zero) {
   EXPECT_DOUBLE_EQ(k.acceleration.x(), 2);
 }
 
+// A pile of boxes, a body that is let go and one that is carried: half way another world reads the state.
+TEST(World, goes_on_to_the_last_bit_from_its_state) {
+  std::vector<BodySpec> bodies;
+  for (int b = 0; b < 3; ++b) {
+    bodies.push_back(body(Box{{0.1, 0.05, 0}}, 1 + b, {0.5 + 0.01 * b, 0.05 + 0.1 * b, 0}));
+    bodies.back().contact.restitution = 0.3;
+  }
+  for (const double release : {0.02, 0.5}) {
+    bodies.push_back(body(Ball{0.05}, 0.5, {0.2 + release, 0.6, 0}));
+    bodies.back().motion = constant_velocity({0.3, -1, 0}, {0, 0, 2}, 0);
+    bodies.back().release = release;
+  }
+  const Force push = [](const Kinematics& k, double t) {
+    return Wrench{{-std::sin(9 * t), -0.1 * k.velocity.y(), 0}, {0, 0, 0.01 * std::cos(t)}};
+  };
+  const double dt = 5e-4;
+  World whole(in_tank(bodies)), resumed(in_tank(bodies));
+  const auto advance = [&](World& simulated, int from, int to) {
+    std::vector<double> poses;
+    for (int n = from + 1; n <= to; ++n) {
+      const std::vector<Kinematics> step = simulated.predict(n * dt, dt);
+      std::vector<Wrench> wrenches;
+      for (const Kinematics& k : step) {
+        wrenches.push_back(push(k, n * dt));
+        poses.insert(poses.end(), k.position.begin(), k.position.end());
+        poses.insert(poses.end(), k.orientation.coeffs().begin(), k.orientation.coeffs().end());
+        poses.insert(poses.end(), k.acceleration.begin(), k.acceleration.end());
+      }
+      simulated.correct(dt, wrenches);
+    }
+    return poses;
+  };
+  advance(whole, 0, 300);
+  whole.renew_contact();
+  const std::vector<double> state = whole.write_state();
+  EXPECT_TRUE(resumed.read_state(state).empty());
+  EXPECT_EQ(resumed.write_state(), state);
+  EXPECT_EQ(advance(whole, 300, 1500), advance(resumed, 300, 1500));
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    EXPECT_EQ(whole.account(b).constraint_work, resumed.account(b).constraint_work);
+  EXPECT_THROW(resumed.read_state(std::span(state).first(state.size() - 1)), std::invalid_argument);
+}
+
 TEST(World, refuses_what_it_cannot_integrate) {
   EXPECT_THAT([] { World(world(2, {body(Ball{0.1}, 0)})); },
               testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("body 'body' is free")));
