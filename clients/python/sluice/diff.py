@@ -26,7 +26,8 @@ class Norms:
     """Of the difference d of one field at one time, over n rows, each a number or a vector.
 
     max = max_i |d_i|, l2 = sqrt(sum_i |d_i|^2 / n), relative = l2 / sqrt(sum_i |a_i|^2 / n) with a the field in A;
-    where a is zero everywhere it is 0 if d is too, infinite else. `at` is the row with the maximum.
+    where a is zero everywhere it is 0 if d is too, infinite else. Of energies and probes, one number at a time, a is that
+    of the whole run: a force that is zero at one time is not infinitely wrong there. `at` is the row with the maximum.
     """
 
     maximum: float
@@ -35,12 +36,13 @@ class Norms:
     at: int
 
 
-def norms(a, b):
-    """Norms of b - a, arrays [n] or [n, k]. What is NaN in both is equal; in one of them alone, infinitely apart."""
+def norms(a, b, size=None):
+    """Norms of b - a, arrays [n] or [n, k], relative to `size`, by default that of a. What is NaN in both is equal; in one of them alone, infinitely apart."""
     a, b = (np.asarray(x, dtype=float).reshape(len(x), -1) for x in (a, b))
     gap = np.linalg.norm(np.where(np.isnan(a) & np.isnan(b), 0.0, b - a), axis=1)
     gap = np.where(np.isnan(gap), np.inf, gap)
-    size = np.sqrt(np.mean(np.nansum(a * a, axis=1)))
+    if size is None:
+        size = np.sqrt(np.mean(np.nansum(a * a, axis=1)))
     l2 = np.sqrt(np.mean(gap * gap))
     relative = 0.0 if l2 == 0 else l2 / size if size > 0 else np.inf
     return Norms(float(gap.max()), float(l2), float(relative), int(gap.argmax()))
@@ -65,8 +67,8 @@ def _brief(value):
 class Quantity:
     """Something that both recordings have, with a value at every frame."""
 
-    def __init__(self, name, unit, read, labels=None):
-        self.name, self.unit, self.read, self.labels = name, unit, read, labels
+    def __init__(self, name, unit, read, labels=None, size=None):
+        self.name, self.unit, self.read, self.labels, self.size = name, unit, read, labels, size
 
     def place(self, at):
         """What the row is, for people."""
@@ -97,16 +99,19 @@ def series_quantities(a, b):
             cache[run_.path, key] = read(run_)
         return cache[run_.path, key]
 
-    result = [
-        Quantity(f"energy {name}", "J", lambda r, f, n=name: at(r, n, lambda q: q.energy(n))[f : f + 1]) for name in ENERGIES
-    ]
+    def series(name, unit, key, read):
+        values = at(a, key, read)
+        size = float(np.sqrt(np.mean(np.nan_to_num(values) ** 2))) if len(values) else 0.0
+        return Quantity(name, unit, lambda r, frame: at(r, key, read)[frame : frame + 1], size=size)
+
+    result = [series(f"energy {name}", "J", name, lambda r, n=name: r.energy(n)) for name in ENERGIES]
     for name in (name for name in a.probes if name in b.probes):
         kind = a.probe_kind(name)
         if b.probe_kind(name) != kind:
             raise RecordingError(f"probe {name!r} is a {kind} probe in {a.path}, a {b.probe_kind(name)} probe in {b.path}")
         for column, unit in COLUMNS[kind].items():
-            read = lambda r, f, n=name, c=column: at(r, (n, c), lambda q: q.probe(n)[c])[f : f + 1]
-            result.append(Quantity(f"probe {name} {column}", unit, read))
+            read = lambda r, n=name, c=column: r.probe(n)[c]
+            result.append(series(f"probe {name} {column}", unit, (name, column), read))
     return result
 
 
@@ -154,7 +159,7 @@ def compare(a, b, options):
     """Rows (time, quantity, Norms), by time and then by quantity."""
     chosen = quantities(a, b, options.field)
     pairs = common_frames(a, b, options)
-    return [(float(a.times[i]), q, norms(q.read(a, i), q.read(b, j))) for i, j in pairs for q in chosen]
+    return [(float(a.times[i]), q, norms(q.read(a, i), q.read(b, j), q.size)) for i, j in pairs for q in chosen]
 
 
 def write_csv(rows, path):
@@ -188,7 +193,7 @@ def arguments(argv):
         prog="sluice diff",
         description="Say how far two recordings are apart: of every field the time of the largest difference.",
         epilog="max: largest difference of a particle, body or probe; L2: root of the mean square; relative: L2 over that "
-        "of the field in A. Exit code 0: nothing differs by more than the tolerance; 1: something does, or the recordings "
+        "of the field in A, of energies and probes over the whole run. Exit code 0: nothing differs by more than the tolerance; 1: something does, or the recordings "
         "cannot be compared.",
     )
     parser.add_argument("a", metavar="A.h5")
