@@ -89,8 +89,8 @@ void GalerkinSolver<Dim, Kernel>::collect_wrenches() {
   if (measure_wall_force_ && search_.halo().has_mirrors()) wrench_[0] = wrench_on_sides();
 }
 
-// Of a tank with mirrored sides, in which there are no bodies: what accelerates the fluid besides gravity,
-// with the opposite sign, since the images' share has no boundary particle to act on.
+// Of a tank with mirrored sides, since the images' share has no boundary particle to act on: what accelerates
+// the fluid besides gravity and the bodies, with the opposite sign.
 template <int Dim, typename Kernel>
 Wrench GalerkinSolver<Dim, Kernel>::wrench_on_sides() const {
   Wrench sum;

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "rigid/world.hpp"
+#include "tests/unit/rigid/specs.hpp"
 #include "tests/unit/rigid/stepping.hpp"
 
 namespace sluice::rigid {
@@ -12,21 +13,9 @@ namespace {
 constexpr double kGravity = 9.81;
 using Kind = JointSpec::Kind;
 
-BodySpec body(Shape shape, double mass, const Eigen::Vector3d& position) {
-  BodySpec spec;
-  spec.name = "body";
-  spec.shape = std::move(shape);
-  spec.mass = mass;
-  spec.pose.position = position;
-  return spec;
-}
-
 WorldSpec world(int dimension, std::vector<BodySpec> bodies, std::vector<JointSpec> joints,
                 const Eigen::Vector3d& gravity = {0, 0, 0}) {
-  WorldSpec spec;
-  spec.dimension = dimension;
-  spec.gravity = gravity;
-  spec.bodies = std::move(bodies);
+  WorldSpec spec = world(dimension, std::move(bodies), gravity);
   spec.joints = std::move(joints);
   return spec;
 }

@@ -6,28 +6,13 @@
 #include <functional>
 #include <numbers>
 
+#include "tests/unit/rigid/specs.hpp"
+
 namespace sluice::rigid {
 namespace {
 
 constexpr double kGravity = 9.81;
 using Force = std::function<Wrench(const Kinematics&, double)>;
-
-BodySpec body(Shape shape, double mass, const Eigen::Vector3d& position = Eigen::Vector3d::Zero()) {
-  BodySpec spec;
-  spec.name = "body";
-  spec.shape = std::move(shape);
-  spec.mass = mass;
-  spec.pose.position = position;
-  return spec;
-}
-
-WorldSpec world(int dimension, std::vector<BodySpec> bodies, const Eigen::Vector3d& gravity = {0, 0, 0}) {
-  WorldSpec spec;
-  spec.dimension = dimension;
-  spec.gravity = gravity;
-  spec.bodies = std::move(bodies);
-  return spec;
-}
 
 // A floor and two side walls.
 WorldSpec in_tank(std::vector<BodySpec> bodies) {
