@@ -101,7 +101,7 @@ CLI::App* add_recording(CLI::App& app, RecordingOptions& options) {
       ->check(CLI::PositiveNumber)
       ->type_name("N")
       ->capture_default_str();
-  command->add_flag("--quick", options.quick, "Few frames, for seconds with few particles and pairs");
+  command->add_flag("--quick", options.quick, "Few frames; nothing is stated of those");
   command->add_option("--csv", options.csv, "Write the times of every pair to this file")->type_name("FILE");
   return command;
 }

@@ -177,6 +177,8 @@ int recording(const RecordingOptions& options) {
   print(costs.back());
   if (!options.csv.empty()) open_output(options.csv) << to_csv(costs) << std::flush;
 
+  if (options.quick) return protocol::kDone;
+
   // What a frame costs where there are many, over the time that the stated rate leaves for it.
   const FrameCost &stated = costs[0], &often = costs[1];
   std::vector<double> alone = stated.without;

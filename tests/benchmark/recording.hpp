@@ -9,7 +9,7 @@ namespace sluice::benchmark {
 struct RecordingOptions {
   double particles = 20'000;
   int pairs = 9;       // of runs with and without a recorder
-  bool quick = false;  // fewer frames
+  bool quick = false;  // fewer frames; nothing is stated of those
   std::string csv;     // file; empty: none
 };
 
