@@ -198,7 +198,7 @@ TEST_F(Structure, HoldsBoundariesExchangesAndParameters) {
 TEST_F(Structure, HasAnXdmfCompanionForEveryFrame) {
   const std::string xdmf = bytes_of(directory_ / "run.xdmf");
   EXPECT_THAT(xdmf, HasSubstr("<Time Value=\"0.2\"/>"));
-  EXPECT_THAT(xdmf, HasSubstr("run.h5:/particles/fluid/pressure/value"));
+  EXPECT_THAT(xdmf, HasSubstr("run.xdmf.h5:/20/pressure"));
 }
 
 // Large enough that the file's own structure does not count.

@@ -214,8 +214,10 @@ TEST(Selection, LeavesFillValuesInEmptySlots) {
 
 TEST(Selection, TheSizeEstimateFollowsIt) {
   const TemporaryDirectory directory;
-  const FakeRun some{
-      .particles = 20'000, .steps_per_frame = 5, .frames = 60, .output = output({PRESSURE}, FLOAT32, 3, false)};
+  const FakeRun some{.particles = 20'000,
+                     .steps_per_frame = 5,
+                     .frames = 60,
+                     .output = output({PRESSURE}, FLOAT32, 3, false)};
   record(some, directory / "run.h5");
   const Welcome welcome = some.welcome().header.welcome();
   const auto expected =
@@ -242,10 +244,38 @@ TEST(Selection, TheCompanionNamesWhatIsThere) {
   const TemporaryDirectory directory;
   record(run(output({PRESSURE}, FLOAT32, 2, true)), directory / "run.h5");
   const std::string xdmf = bytes_of(directory / "run.xdmf");
-  EXPECT_THAT(xdmf, HasSubstr("run.h5:/particles/fluid/pressure/value"));
+  EXPECT_THAT(xdmf, HasSubstr("Precision=\"4\" Format=\"HDF\">run.xdmf.h5:/2/pressure"));
   EXPECT_THAT(xdmf, Not(HasSubstr("velocity")));
   EXPECT_THAT(xdmf, Not(HasSubstr("<Time Value=\"0.01\"/>")));
   EXPECT_THAT(xdmf, HasSubstr("<Time Value=\"0.02\"/>"));
+}
+
+// As another program reads them, wherever it was started.
+TEST_P(Selected, TheCompanionHasAViewOfEveryFrame) {
+  record(run_, path_);
+  const hid_t file = H5Fopen((directory_ / "run.xdmf.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  int frames = 0;
+  for (std::uint64_t index = 0; index <= run_.frames; ++index) {
+    const protocol::Message frame = run_.frame(index);
+    if (!frame.has_array("fluid/position") || frame.shape("fluid/position")[0] == 0) continue;
+    ++frames;
+    for (int i = 0; i < frame.header.array_size(); ++i) {
+      const std::string name = frame.header.array(i).name();
+      if (!name.starts_with("fluid/")) continue;
+      const hid_t view = H5Dopen2(file, ("/" + std::to_string(index) + name.substr(5)).c_str(), H5P_DEFAULT);
+      ASSERT_GE(view, 0) << name << " of frame " << index;
+      const zmq::message_t& expected = frame.frames[static_cast<std::size_t>(i)];
+      std::string bytes(expected.size(), ' ');
+      const hid_t type = H5Dget_type(view);
+      H5Dread(view, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data());
+      EXPECT_EQ(bytes, expected.to_string()) << name << " of frame " << index;
+      H5Tclose(type);
+      H5Dclose(view);
+    }
+  }
+  H5Fclose(file);
+  EXPECT_GT(frames, 4);
 }
 
 }  // namespace
