@@ -1,6 +1,6 @@
-"""Writes SCENE.md, the reference of every message of a scene, from the comments of scene.proto.
+"""Writes SCENE.md, the reference of every message of a scene, from the comments of scene.proto and what it imports.
 
-    /usr/bin/python3 protocol/scene_reference.py          # after a change of scene.proto; a test compares
+    /usr/bin/python3 protocol/scene_reference.py          # after a change of them; a test compares
 """
 
 import re
@@ -15,7 +15,7 @@ MESSAGES, ENUMS = 4, 5  # field numbers in FileDescriptorProto, of which source 
 FIELDS, VALUES = 2, 2  # in DescriptorProto and EnumDescriptorProto
 HEAD = """# Scene reference
 
-<!-- Made by protocol/scene_reference.py from the comments of scene.proto: change those, and run it. -->
+<!-- Made by protocol/scene_reference.py from the comments of scene.proto and what it imports: change those, and run it. -->
 
 The message `Scene` and all it is made of, as a program sees them: names and numbers of the fields, types, units, defaults.
 [clients/README.md](../clients/README.md#scenes) explains them with examples for who writes scenes by hand.
@@ -25,12 +25,13 @@ Field = descriptor_pb2.FieldDescriptorProto
 
 
 def load():
-    """The file's descriptor with its comments."""
+    """The descriptors of scene.proto and of the files that it imports, in the order of their names, with their comments."""
     with tempfile.TemporaryDirectory() as directory:
         out = Path(directory) / "scene.pb"
-        words = ["protoc", f"-I{HERE}", "--include_source_info", f"--descriptor_set_out={out}", str(HERE / "scene.proto")]
-        subprocess.run(words, check=True)
-        return descriptor_pb2.FileDescriptorSet.FromString(out.read_bytes()).file[0]
+        words = ["protoc", f"-I{HERE}", "--include_source_info", "--include_imports", f"--descriptor_set_out={out}"]
+        subprocess.run([*words, str(HERE / "scene.proto")], check=True)
+        *imported, scene = descriptor_pb2.FileDescriptorSet.FromString(out.read_bytes()).file
+        return [scene, *sorted(imported, key=lambda file: file.name)]
 
 
 def comments_of(file):
@@ -90,13 +91,14 @@ def enum_text(enum, path, comments):
 
 def reference():
     """The text of SCENE.md."""
-    file = load()
-    comments = comments_of(file)
     text = HEAD
-    for k, message in enumerate(file.message_type):
-        text += message_text(message, (MESSAGES, k), comments)
-    for k, enum in enumerate(file.enum_type):
-        text += enum_text(enum, (ENUMS, k), comments)
+    files = [(file, comments_of(file)) for file in load()]
+    for file, comments in files:
+        for k, message in enumerate(file.message_type):
+            text += message_text(message, (MESSAGES, k), comments)
+    for file, comments in files:
+        for k, enum in enumerate(file.enum_type):
+            text += enum_text(enum, (ENUMS, k), comments)
     return text.rstrip("\n") + "\n"
 
 

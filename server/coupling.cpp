@@ -20,15 +20,6 @@ constexpr milliseconds kPollEvery{5};  // between steps
 constexpr milliseconds kBeatEvery{1000};
 constexpr int kMostMessages = 256;  // dealt with at once: a flood must not keep the run from its deadlines
 
-// "the recorder did not join within 30 s"
-std::string late(std::string_view what, milliseconds deadline) {
-  return fmt::format("{} within {:g} s", what, std::chrono::duration<double>(deadline).count());
-}
-
-Stop silent_recorder(milliseconds deadline) {
-  return {End::RECORDER_LOST, late("the recorder acknowledged nothing", deadline)};
-}
-
 Exchange make_exchange(const Simulation& simulation) {
   const sluice::Coupling& coupling = simulation.coupling.coupling;
   return {simulation.bodies.size(),
@@ -41,6 +32,10 @@ Exchange make_exchange(const Simulation& simulation) {
 }
 
 }  // namespace
+
+std::string late(std::string_view what, milliseconds deadline) {
+  return fmt::format("{} within {:g} s", what, std::chrono::duration<double>(deadline).count());
+}
 
 Coupling::Coupling(const Simulation& simulation, Sockets& sockets, const Options& options)
     : simulation_(simulation),
@@ -149,42 +144,11 @@ void Coupling::output(std::uint64_t step) {
   if (!published && !options_.expect_recorder) return;
   Message message = frame(simulation_, step, rows_);
   stamp(message.header);
-  ++frames_serialised_;
+  ++outcome_.frames_serialised;
+  count(message);
   if (published) publisher_.publish("frame", message);
   record_log();
   record(std::move(message));
-}
-
-void Coupling::checkpoint(std::uint64_t step) {
-  if (!checkpoints_.wanted() || (lock_step_ && !gives_state_)) return;
-  if (lock_step_)
-    wait_until([&] { return rigid_state_.step == step; }, options_.deadline,
-               [&] {
-                 const std::string what =
-                     fmt::format("the rigid process did not give its state after step {}", step);
-                 return Stop(End::PARTICIPANT_TIMEOUT, late(what, options_.deadline));
-               });
-  checkpoints_.keep(step, session_.run_id(), rigid_state_.numbers, rigid_state_.build);
-  kept_after_ = recorder_.sent();
-  if (!checkpoints_.is_due()) return;
-  if (options_.expect_recorder) drain_recorder();
-  write_checkpoint();
-}
-
-// The state that a run stopped with: that of the last output.
-void Coupling::write_last_checkpoint(Outcome& outcome) {
-  const bool recorded = recorder_.acknowledged() >= kept_after_;
-  if (recorded && checkpoints_.is_due_at_end(outcome.reason == End::FINISHED)) write_checkpoint();
-  if (const std::string report = checkpoints_.report(); !report.empty()) outcome.detail += "; " + report;
-}
-
-// A full disk is no reason to lose the run.
-void Coupling::write_checkpoint() {
-  try {
-    checkpoints_.write();
-  } catch (const std::system_error& error) {
-    spdlog::warn("no checkpoint after step {}: {}", checkpoints_.step(), error.what());
-  }
 }
 
 void Coupling::poll() {
@@ -197,7 +161,9 @@ void Coupling::end(Outcome& outcome) {
   ending_ = true;
   session_.finish();
   outcome.steps = step_;
-  outcome.frames_serialised = frames_serialised_;
+  outcome.frames_serialised = outcome_.frames_serialised;
+  outcome.messages_serialised = outcome_.messages_serialised;
+  outcome.bytes_serialised = outcome_.bytes_serialised;
   const auto message = [&] {
     Message end_message = server::end(step_, outcome.reason, outcome.detail, progress_.wall_seconds());
     stamp(end_message.header);
@@ -215,24 +181,8 @@ void Coupling::end(Outcome& outcome) {
   publisher_.publish("status", message());
 }
 
-// Sends what `send` has and waits until the recorder has it.
-template <typename Send>
-void Coupling::bring_to_recorder(Outcome& outcome, const Send& send) {
-  if (outcome.reason == End::RECORDER_LOST || !session_.present(RECORDER)) return;
-  try {
-    send();
-    drain_recorder();
-  } catch (const Stop& stop) {
-    spdlog::warn("while ending: {}", stop.what());
-    if (outcome.reason == End::FINISHED) {
-      outcome.reason = stop.reason();
-      outcome.detail = stop.what();
-    }
-  }
-}
-
-template <typename Done, typename Fail>
-void Coupling::wait_until(const Done& done, milliseconds deadline, const Fail& fail) {
+void Coupling::wait_until(const std::function<bool()>& done, milliseconds deadline,
+                          const std::function<Stop()>& fail) {
   const auto limit = steady_clock::now() + deadline;
   while (!done()) {
     if (steady_clock::now() > limit) throw fail();
@@ -291,52 +241,12 @@ void Coupling::dispatch(const Session::Inbound& inbound) {
   }
 }
 
-void Coupling::take_state(const Message& message) {
-  const State& content = message.header.state();
-  if (!lock_step_ || content.step() != step_ || !simulation_.clock.is_output(step_))
-    throw Refused(Refusal::BAD_SEQUENCE,
-                  fmt::format("the state after step {} came; it is wanted after output steps, and {} is done",
-                              content.step(), step_));
-  try {
-    const std::span<const double> numbers = message.array<double>("state");
-    rigid_state_ = {content.step(), content.build(), {numbers.begin(), numbers.end()}};
-  } catch (const protocol::ProtocolError& error) {
-    throw Refused(Refusal::BAD_MESSAGE, error.what());
-  }
-}
-
-void Coupling::record(Message message) {
-  if (!options_.expect_recorder) return;
-  const milliseconds deadline = options_.recorder_deadline;
-  wait_until([this] { return recorder_.has_room(); }, deadline, [&] { return silent_recorder(deadline); });
-  wait_until([&] { return recorder_.offer(message); }, deadline,
-             [&] {
-               return Stop(End::RECORDER_LOST,
-                           late("the recorder did not connect to the record endpoint", deadline));
-             });
-}
-
-void Coupling::record_log() {
-  if (std::optional<Message> message = log_.take()) {
-    stamp(message->header);
-    record(std::move(*message));
-  }
-}
-
-// Waits for every acknowledgement; the deadline is for each.
-void Coupling::drain_recorder() {
-  while (recorder_.acknowledged() < recorder_.sent()) {
-    const std::uint64_t before = recorder_.acknowledged();
-    wait_until([&] { return recorder_.acknowledged() > before; }, options_.recorder_deadline,
-               [this] { return silent_recorder(options_.recorder_deadline); });
-  }
-}
-
 void Coupling::publish_status() {
   const double rate = progress_.rate(step_);
   if (!publisher_.wanted("status")) return;
   Message message = status(step_, simulation_.clock.steps(), progress_.wall_seconds(), rate);
   stamp(message.header);
+  count(message);
   publisher_.publish("status", message);
 }
 

@@ -2,7 +2,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "server/checkpoints.hpp"
 #include "server/exchange.hpp"
@@ -13,6 +16,7 @@
 #include "server/session.hpp"
 #include "server/simulation.hpp"
 #include "server/sockets.hpp"
+#include "server/stop.hpp"
 
 namespace sluice::server {
 
@@ -24,6 +28,9 @@ struct Options {
   const std::atomic<bool>* interrupted = nullptr;      // set by a signal: end in good order
   CheckpointOptions checkpoint{};
 };
+
+// "the recorder did not join within 30 s"
+std::string late(std::string_view what, std::chrono::milliseconds deadline);
 
 // The run's side of every conversation: poses in, wrenches out, frames to the recorder and the watchers.
 // Called from the thread of the simulation; all messages are dealt with inside these calls. Any of them may
@@ -57,19 +64,20 @@ class Coupling {
 
  private:
   // Serves messages until done(); throws fail() when that takes longer than the deadline.
-  template <typename Done, typename Fail>
-  void wait_until(const Done& done, std::chrono::milliseconds deadline, const Fail& fail);
+  void wait_until(const std::function<bool()>& done, std::chrono::milliseconds deadline,
+                  const std::function<Stop()>& fail);
   void wait_for_kinematics(std::uint64_t step);
   void service(std::chrono::milliseconds timeout);
   void dispatch(const Session::Inbound& inbound);
+  // Notes a message that is made for the recorder or for watchers.
+  void count(const protocol::Message& message);
   void record(protocol::Message message);
   void record_log();
   void drain_recorder();
   void take_state(const protocol::Message& message);
   void write_checkpoint();
   void write_last_checkpoint(Outcome& outcome);
-  template <typename Send>
-  void bring_to_recorder(Outcome& outcome, const Send& send);
+  void bring_to_recorder(Outcome& outcome, const std::function<void()>& send);
   void publish_status();
   // What the probes measure, to who asked for it where the answer ends with an output; else nothing.
   [[nodiscard]] std::vector<double> probes_for_participant(std::uint64_t step) const;
@@ -101,7 +109,7 @@ class Coupling {
   std::chrono::steady_clock::time_point polled_;
   std::vector<double> rows_;  // kinematics of the last step
   std::uint64_t step_ = 0;    // done
-  std::uint64_t frames_serialised_ = 0;
+  Outcome outcome_;           // what of it is counted on the way
   bool ending_ = false;
 };
 

@@ -5,8 +5,9 @@
 
 #include <fstream>
 
-#include "clients/recording/layout.hpp"
+#include "clients/recording/frame_views.hpp"
 #include "clients/recording/reader.hpp"
+#include "protocol/array_layout.hpp"
 
 namespace sluice::clients {
 namespace {
@@ -28,36 +29,29 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-// The rows of one frame in a dataset over all frames.
-std::string hyperslab(const Reader& recording, const layout::Field& field, std::uint64_t frame) {
-  const auto n = recording.welcome().fluid_particles();
-  const bool vector = field.row.size() == 2;
-  const std::string tail = vector ? " 3" : "";
+std::string data_item(const std::string& file, const FrameView& view) {
+  const bool is_real = view.type == Array::FLOAT32 || view.type == Array::FLOAT64;
   return fmt::format(
-      "<DataItem ItemType=\"HyperSlab\" Dimensions=\"{0}{1}\">"
-      "<DataItem Dimensions=\"3 {2}\" Format=\"XML\">{3} 0{4} 1 1{5} 1 {0}{1}</DataItem>"
-      "<DataItem Dimensions=\"{6} {0}{1}\" NumberType=\"Float\" Precision=\"8\" "
-      "Format=\"HDF\">{7}:{8}</DataItem>"
-      "</DataItem>",
-      n, tail, vector ? 3 : 2, frame, vector ? " 0" : "", vector ? " 1" : "", recording.frames(),
-      escaped(recording.path().filename().string()), field.dataset);
+      "<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:{}</DataItem>",
+      fmt::join(view.shape, " "), is_real ? "Float" : "Int", protocol::element_size(view.type), escaped(file),
+      view.dataset);
 }
 
-void write_frame(std::ostream& out, const Reader& recording, const std::vector<layout::Field>& fields,
-                 std::uint64_t frame) {
-  const auto n = recording.welcome().fluid_particles();
-  fmt::print(out, "<Grid Name=\"frame {}\" GridType=\"Uniform\">\n<Time Value=\"{:.9g}\"/>\n", frame,
-             1e-9 * static_cast<double>(recording.frame_header(frame).time_ns()));
-  fmt::print(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n",
-             n);
-  for (const auto& field : fields) {
-    const std::string name = field.array.substr(field.array.find('/') + 1);
-    if (name == "position") {
-      fmt::print(out, "<Geometry GeometryType=\"XYZ\">{}</Geometry>\n", hyperslab(recording, field, frame));
-    } else {
-      fmt::print(out, "<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n", name,
-                 field.row.size() == 2 ? "Vector" : "Scalar", hyperslab(recording, field, frame));
-    }
+void write_frame(std::ostream& out, const std::string& file, std::uint64_t frame, double time,
+                 const std::vector<FrameView>& views) {
+  fmt::print(out, "<Grid Name=\"frame {}\" GridType=\"Uniform\">\n<Time Value=\"{:.9g}\"/>\n", frame, time);
+  for (const FrameView& view : views) {
+    const std::string data = data_item(file, view);
+    if (view.name == "position")
+      fmt::print(out, "<Geometry GeometryType=\"XYZ\">{}</Geometry>\n", data);
+    else if (&view == &views.back())  // the readers of version 3 draw no points without
+      fmt::print(out,
+                 "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" "
+                 "NodesPerElement=\"1\">{}</Topology>\n",
+                 view.shape.front(), data);
+    else
+      fmt::print(out, "<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n",
+                 view.name, view.shape.size() == 2 ? "Vector" : "Scalar", data);
   }
   fmt::print(out, "</Grid>\n");
 }
@@ -66,15 +60,17 @@ void write_frame(std::ostream& out, const Reader& recording, const std::vector<l
 
 void write_xdmf(const std::filesystem::path& path) {
   const Reader recording(path);
+  const FrameViews views(recording);
   std::filesystem::path companion = path;
   std::ofstream out(companion.replace_extension(".xdmf"));
   fmt::print(out,
              "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
              "<Grid Name=\"fluid\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
-  auto fields = layout::frame_fields(recording.welcome().fluid_particles(), 0, 0);
-  fields.resize(4);  // those of the fluid
-  for (std::uint64_t frame = 0; frame < recording.frames(); ++frame)
-    write_frame(out, recording, fields, frame);
+  for (std::uint64_t frame = 0; frame < recording.frames(); ++frame) {
+    const double time = 1e-9 * static_cast<double>(recording.frame_header(frame).time_ns());
+    if (const std::vector<FrameView> some = views.of(frame); !some.empty())
+      write_frame(out, views.path().filename().string(), frame, time, some);
+  }
   fmt::print(out, "</Grid>\n</Domain>\n</Xdmf>\n");
   if (!out.flush()) throw std::runtime_error("cannot write " + companion.string());
 }

@@ -69,7 +69,18 @@ class Fuzz : public testing::Test {
   std::size_t refused_ = 0;
 };
 
-constexpr FakeRun kRun{.particles = 60, .bodies = 2, .steps_per_frame = 7, .frames = 12};
+// With all particles in every frame, and with a number that differs, in every second.
+FakeRun make_run(bool is_selected) {
+  FakeRun run{.particles = 60, .bodies = 2, .steps_per_frame = 7, .frames = 12};
+  if (!is_selected) return run;
+  run.output.set_precision(FLOAT32);
+  run.output.set_particles_every(2);
+  for (int axis = 0; axis < 2; ++axis) run.output.mutable_region()->add_min(0);
+  for (int axis = 0; axis < 2; ++axis) run.output.mutable_region()->add_max(1);
+  return run;
+}
+
+const FakeRun kWhole = make_run(false), kSelected = make_run(true);
 
 // All that any program reads of a recording. A frame that reads is one that was recorded.
 void read_all(const std::filesystem::path& path) {
@@ -77,9 +88,12 @@ void read_all(const std::filesystem::path& path) {
   (void)clients::inspect(recording);
   (void)clients::inspect_json(recording);
   (void)recording.welcome_message();
+  (void)recording.slots();
+  const FakeRun& run = recording.scene().output().has_region() ? kSelected : kWhole;
   for (std::uint64_t index = 0; index < recording.frames(); ++index) {
     const protocol::Message frame = recording.frame(index);
-    ASSERT_EQ(frame.hash_arrays(), kRun.frame(index).hash_arrays()) << "frame " << index;
+    ASSERT_EQ(frame.hash_arrays(), run.frame(index).hash_arrays()) << "frame " << index;
+    (void)recording.particles(index);
   }
   for (std::uint64_t step = 1; step <= recording.exchanges(); ++step) (void)recording.exchange_log(step, 1);
 }
@@ -93,17 +107,17 @@ void repair_into(const std::filesystem::path& from, const std::filesystem::path&
   read_all(to);
 }
 
-std::string finished(const std::filesystem::path& path) {
-  record(kRun, path);
+std::string finished(const FakeRun& run, const std::filesystem::path& path) {
+  record(run, path);
   return bytes_of(path);
 }
 
 // As a killed recorder leaves it: a copy of a file whose writer has flushed and not closed it.
-std::string unfinished(const std::filesystem::path& path) {
-  clients::Writer writer(clients::OutputFile(path, false), kRun.welcome());
-  for (std::uint64_t index = 0; index <= kRun.frames; ++index) {
-    if (index > 0) writer.write(kRun.exchange_log(index));
-    writer.write(kRun.frame(index));
+std::string unfinished(const FakeRun& run, const std::filesystem::path& path) {
+  clients::Writer writer(clients::OutputFile(path, false), run.welcome());
+  for (std::uint64_t index = 0; index <= run.frames; ++index) {
+    if (index > 0) writer.write(run.exchange_log(index));
+    writer.write(run.frame(index));
   }
   writer.flush();
   return bytes_of(path);
@@ -111,8 +125,9 @@ std::string unfinished(const std::filesystem::path& path) {
 
 TEST_F(Fuzz, Recordings) {
   const auto path = directory_ / "file.h5";
-  const std::vector<std::string> originals{finished(directory_ / "finished.h5"),
-                                           unfinished(directory_ / "unfinished.h5")};
+  const std::vector<std::string> originals{
+      finished(kWhole, directory_ / "finished.h5"), unfinished(kWhole, directory_ / "unfinished.h5"),
+      finished(kSelected, directory_ / "selected.h5"), unfinished(kSelected, directory_ / "selected_cut.h5")};
   repeat(originals, [&](const std::string& bytes) {
     write_bytes(path, bytes);
     (void)accepted([&] { read_all(path); });
@@ -129,7 +144,7 @@ TEST_F(Fuzz, Checkpoints) {
   protocol::CheckpointFile whole;
   whole.header.set_run_id("0123456789abcdef");
   whole.header.set_step(40);
-  *whole.header.mutable_scene() = kRun.welcome().header.welcome().scene();
+  *whole.header.mutable_scene() = kWhole.welcome().header.welcome().scene();
   whole.fluid.assign(5000, std::byte{7});
   whole.rigid.assign(81, 0.5);
   protocol::write_checkpoint(path, whole);

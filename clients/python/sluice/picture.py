@@ -2,16 +2,13 @@
 
 from dataclasses import dataclass
 
-import matplotlib
 import numpy as np
-from matplotlib.cm import ScalarMappable
-from matplotlib.collections import PolyCollection
-from matplotlib.colors import LinearSegmentedColormap, Normalize
-from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
 from sluice import raster, shapes
 from sluice import view as views
+from sluice.drawing import (
+    Figure, LinearSegmentedColormap, Normalize, PolyCollection, Rectangle, ScalarMappable, matplotlib,
+)
 from sluice.recording import RecordingError
 
 DPI = 150
@@ -32,11 +29,18 @@ class Style:
     front: bool = False
 
 
+def first_field(run):
+    """What a picture shows unless asked otherwise: the speed, or what is recorded instead."""
+    shown = {"velocity": "speed", "pressure": "pressure", "density": "density"}
+    return next((field for recorded, field in shown.items() if recorded in run.fields), f"position_{'xyz'[run.dimension - 1]}")
+
+
 def color_map(field):
     if field == "speed":
         # Dark blue to pale yellow; white itself is where no liquid is.
         return LinearSegmentedColormap.from_list("speed", matplotlib.colormaps["YlGnBu_r"](np.linspace(0.08, 0.88, 256)))
-    return matplotlib.colormaps[{"pressure": "plasma", "density": "cividis"}.get(field, SIGNED)]
+    maps = {"pressure": "plasma", "density": "cividis"}
+    return matplotlib.colormaps["viridis" if field.startswith("position_") else maps.get(field, SIGNED)]
 
 
 def color_range(samples, field):
@@ -230,7 +234,7 @@ def draw(shots, view_of, style, title="", sampled=None):
     panels = []
     for number, (run, frame, text) in enumerate(shots):
         axes = sheet.axes(number)
-        panel = Panel(axes, run, view_of(run), corners, style, norm, round(1.25 * DPI * max(sheet.width, sheet.height)))
+        panel = Panel(axes, run, view_of(run), corners, style, norm, round(DPI * max(sheet.width, sheet.height)))
         panel.show(frame, text)
         right, up = view_of(run).labels()
         if number + sheet.columns >= len(shots):
