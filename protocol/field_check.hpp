@@ -41,6 +41,7 @@ class FieldCheck {
 // The parts of check_fields.
 void check_numbers(const google::protobuf::Message& message, const std::string& prefix, FieldCheck& check);
 void check_polygon(const Polygon& polygon, const std::string& field, FieldCheck& check);
+void check_output(const Scene& scene, FieldCheck& check);
 void check_formulation(const Scene& scene, FieldCheck& check);
 void check_coupling(const Scene& scene, FieldCheck& check);
 void check_domain(const Scene& scene, FieldCheck& check);

@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::size_t kLongestSceneName = 200;
 constexpr double kLongestRun = 1e9;   // [s]
-constexpr double kHighestRate = 1e6;  // [1/s]
-constexpr double kMostFrames = 1e7;
 constexpr int kMostRegions = 10'000;
 
 bool printable(const std::string& text) {
@@ -45,16 +43,6 @@ void check_liquid(const Liquid& liquid, FieldCheck& check) {
                  fmt::format("{} m/s is below max_speed, {} m/s; ten times max_speed keeps "
                              "the density within 1 %",
                              liquid.sound_speed(), liquid.max_speed()));
-}
-
-void check_output(const Scene& scene, FieldCheck& check) {
-  if (!scene.output().has_rate()) return;
-  const double rate = scene.output().rate();
-  check.positive(rate, "output.rate", "frames per second", "leave it out for 100 frames over the run");
-  if (rate > kHighestRate || rate * scene.duration() > kMostFrames)
-    check.report("output.rate",
-                 fmt::format("{} frames per second over {} s; at most {} per second and {} in all", rate,
-                             scene.duration(), kHighestRate, kMostFrames));
 }
 
 void check_regions(const Scene& scene, FieldCheck& check) {

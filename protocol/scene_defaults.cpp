@@ -111,6 +111,15 @@ void fill_formulation(Formulation& formulation, unsigned dimension, bool periodi
   if (!formulation.has_shifting()) formulation.set_shifting(periodic ? 6 : 0);
 }
 
+void fill_output(Output& output, double duration) {
+  constexpr double kFrames = 100;
+  if (!output.has_rate()) output.set_rate(kFrames / duration);
+  if (!output.has_particles_every()) output.set_particles_every(1);
+  if (output.precision() == PRECISION_UNSPECIFIED) output.set_precision(FLOAT64);
+  if (output.field().empty())
+    for (const ParticleField field : {POSITION, VELOCITY, DENSITY, PRESSURE}) output.add_field(field);
+}
+
 void fill_coupling(Coupling& coupling) {
   if (coupling.scheme() == COUPLING_UNSPECIFIED) coupling.set_scheme(EXPLICIT);
   if (!coupling.has_steps_per_exchange()) coupling.set_steps_per_exchange(1);
@@ -125,7 +134,6 @@ void fill_coupling(Coupling& coupling) {
 }  // namespace
 
 Scene with_defaults(const Scene& scene) {
-  constexpr double kFrames = 100;
   Scene full = scene;
   const int dimension = scene.dimension() == 3 ? 3 : 2;
   if (full.gravity().empty()) {
@@ -139,7 +147,7 @@ Scene with_defaults(const Scene& scene) {
   }
   fill_liquid(full);
   for (auto& body : *full.mutable_body()) fill_body(body, dimension);
-  if (!full.output().has_rate()) full.mutable_output()->set_rate(kFrames / full.duration());
+  fill_output(*full.mutable_output(), full.duration());
   fill_formulation(*full.mutable_formulation(), full.dimension(), full.domain().periodic_size() > 0);
   fill_coupling(*full.mutable_coupling());
   return full;

@@ -1,7 +1,9 @@
 #include "server/content.hpp"
 
+#include "protocol/frame_layout.hpp"
 #include "server/build_info.hpp"
 #include "server/kinematics_rows.hpp"
+#include "server/particle_arrays.hpp"
 #include "server/probes.hpp"
 
 namespace sluice::server {
@@ -94,14 +96,11 @@ Message welcome(const Simulation& simulation, const protocol::Endpoint& endpoint
 }
 
 Message frame(const Simulation& simulation, std::uint64_t step, std::span<const double> kinematics) {
-  const fluid::Snapshot state = simulation.solver->snapshot();
-  const std::uint64_t n = state.density.size();
   Message message;
   message.header.set_step(step);
-  message.add_array<double>("fluid/position", state.position, {n, 3});
-  message.add_array<double>("fluid/velocity", state.velocity, {n, 3});
-  message.add_array<double>("fluid/density", state.density, {n});
-  message.add_array<double>("fluid/pressure", state.pressure, {n});
+  const std::uint64_t index = step / simulation.clock.steps_per_interval();
+  if (protocol::has_particles(simulation.scene, index))
+    add_particles(message, simulation.scene, simulation.solver->snapshot());
   message.add_array<double>("body/kinematics", kinematics,
                             {kinematics.size() / kKinematicsRow, kKinematicsRow});
   add_wrenches(message, "body/wrench", simulation.solver->wrenches());
@@ -109,7 +108,7 @@ Message frame(const Simulation& simulation, std::uint64_t step, std::span<const 
   if (simulation.scene.probe_size() > 0) add_probes(message, simulation, kinematics);
 
   Frame& content = *message.header.mutable_frame();
-  content.set_index(step / simulation.clock.steps_per_interval());
+  content.set_index(index);
   content.set_hash(message.hash_arrays());
   fill_energy(*content.mutable_energy(), simulation.solver->diagnostics());
   return message;

@@ -7,7 +7,8 @@
 
 namespace sluice::clients {
 
-// Throws ProtocolError unless the i-th array of the message is float64 of that name and shape.
-void check_array(const protocol::Message& message, int i, const std::string& name, const h5::Shape& shape);
+// Throws ProtocolError unless the i-th array of the message is of that name, shape and type.
+void check_array(const protocol::Message& message, int i, const std::string& name, const h5::Shape& shape,
+                 Array::Type type = Array::FLOAT64);
 
 }  // namespace sluice::clients

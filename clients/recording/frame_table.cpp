@@ -33,8 +33,10 @@ void link_times(hid_t file, const std::string& group) {
 }  // namespace
 
 template <typename Make>
-FrameTable::FrameTable(hsize_t particles, hsize_t bodies, hsize_t probes, Make make)
-    : fields_(layout::frame_fields(particles, bodies, probes)), observables_(layout::observables()) {
+FrameTable::FrameTable(const Welcome& welcome, Make make)
+    : fields_(layout::frame_fields(static_cast<hsize_t>(welcome.scene().body_size()),
+                                   static_cast<hsize_t>(welcome.scene().probe_size()))),
+      observables_(layout::observables()) {
   using Row = h5::Shape;
   step_ = make.template operator()<std::uint64_t>(layout::kFrameStep, Row{}, "");
   time_ = make.template operator()<double>(layout::kFrameTime, Row{}, "s");
@@ -48,31 +50,38 @@ FrameTable::FrameTable(hsize_t particles, hsize_t bodies, hsize_t probes, Make m
                                                        observable.row, observable.unit));
 }
 
-FrameTable FrameTable::create(hid_t file, hsize_t particles, hsize_t bodies, hsize_t probes,
-                              h5::Storage storage) {
-  FrameTable table(particles, bodies, probes,
-                   [&]<typename T>(const std::string& path, const h5::Shape& row, const std::string& unit) {
-                     return h5::Series::create<T>(file, path, row, unit, storage);
-                   });
-  link_times(file, "/frames");
-  for (const char* name : {"velocity", "density", "pressure"})
-    link_times(file, fmt::format("/particles/fluid/{}", name));
-  if (probes > 0) link_times(file, layout::kProbes);
+// The frames' step and time come first: what else has them is linked to these.
+FrameTable FrameTable::create(hid_t file, const Welcome& welcome, h5::Storage storage) {
+  const auto make = [&]<typename T>(const std::string& path, const h5::Shape& row, const std::string& unit) {
+    return h5::Series::create<T>(file, path, row, unit, storage);
+  };
+  FrameTable table(welcome, make);
+  table.particles_ = ParticleTable::create(file, welcome, storage);
+  if (welcome.scene().probe_size() > 0) link_times(file, layout::kProbes);
   for (const auto& observable : table.observables_) link_times(file, layout::energy_group(observable));
   return table;
 }
 
-FrameTable FrameTable::open(hid_t file, hsize_t particles, hsize_t bodies, hsize_t probes) {
-  return {particles, bodies, probes,
-          [&]<typename T>(const std::string& path, const h5::Shape& row, const std::string& /*unit*/) {
-            return h5::Series::open(file, path, row);
-          }};
+FrameTable FrameTable::open(hid_t file, const Welcome& welcome) {
+  FrameTable table(
+      welcome, [&]<typename T>(const std::string& path, const h5::Shape& row, const std::string& /*unit*/) {
+        return h5::Series::open(file, path, row);
+      });
+  table.particles_ = ParticleTable::open(file, welcome);
+  return table;
 }
 
 void FrameTable::check(const Message& message) const {
-  for (std::size_t i = 0; i < fields_.size(); ++i)
-    check_array(message, static_cast<int>(i), fields_[i].array, fields_[i].row);
   const Frame& frame = message.header.frame();
+  int array = 0;
+  if (particles_.has(frame.index())) {
+    particles_.check(message);
+    array = particles_.arrays();
+  }
+  for (const layout::Field& field : fields_) check_array(message, array++, field.array, field.row);
+  if (message.header.array_size() != array)
+    throw ProtocolError(fmt::format("frame {} has {} arrays, expected {}; the next is {}", frame.index(),
+                                    message.header.array_size(), array, message.header.array(array).name()));
   if (frame.index() != length())
     throw ProtocolError(fmt::format("frame {} came, expected {}", frame.index(), length()));
   if (frame.hash() != message.hash_arrays())
@@ -83,6 +92,7 @@ void FrameTable::check(const Message& message) const {
 void FrameTable::append(const Message& message) {
   check(message);
   const Header& header = message.header;
+  if (particles_.has(header.frame().index())) particles_.append(message);
   for (std::size_t i = 0; i < fields_.size(); ++i) data_[i].append(message.array<double>(fields_[i].array));
   for (std::size_t i = 0; i < observables_.size(); ++i)
     energy_[i].append(
@@ -95,13 +105,17 @@ void FrameTable::append(const Message& message) {
 }
 
 std::uint64_t FrameTable::length() const {
-  std::uint64_t shortest = step_.length();
+  std::uint64_t shortest = std::min(step_.length(), particles_.frames());
   for (const auto* series : {&time_, &time_ns_, &hash_, &checksum_})
     shortest = std::min(shortest, series->length());
   for (const auto* group : {&data_, &energy_})
     for (const auto& series : *group)
       if (!series.absent()) shortest = std::min(shortest, series.length());
   return shortest;
+}
+
+std::uint64_t FrameTable::particles(std::uint64_t index) const {
+  return particles_.has(index) ? particles_.count(index) : 0;
 }
 
 Header FrameTable::header(std::uint64_t index) const {
@@ -119,6 +133,7 @@ Header FrameTable::header(std::uint64_t index) const {
 Message FrameTable::read(std::uint64_t index) const {
   Message message;
   message.header = header(index);
+  if (particles_.has(index)) particles_.read(index, message);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const auto data = data_[i].read<double>(index, 1);
     message.add_array<double>(fields_[i].array, data, {fields_[i].row.begin(), fields_[i].row.end()});

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "clients/recording/layout.hpp"
+#include "clients/recording/particle_table.hpp"
 #include "clients/recording/series.hpp"
 #include "protocol/message.hpp"
 
@@ -12,15 +13,18 @@ namespace sluice::clients {
 // The state frames of a recording: a row in each of its datasets.
 class FrameTable {
  public:
-  static FrameTable create(hid_t file, hsize_t particles, hsize_t bodies, hsize_t probes,
-                           h5::Storage storage = h5::Storage::kPlain);
-  static FrameTable open(hid_t file, hsize_t particles, hsize_t bodies, hsize_t probes);
+  static FrameTable create(hid_t file, const Welcome& welcome, h5::Storage storage = h5::Storage::kPlain);
+  static FrameTable open(hid_t file, const Welcome& welcome);
 
   // Throws ProtocolError, having written nothing, when the frame is not the next or not what it says.
   void append(const protocol::Message& frame);
 
   // Rows that all datasets have. The last of them may be incomplete if the writer was killed.
   [[nodiscard]] std::uint64_t length() const;
+  // Particles in a frame; 0 in one that was to have none.
+  [[nodiscard]] std::uint64_t particles(std::uint64_t index) const;
+  // The most in any.
+  [[nodiscard]] std::uint64_t slots() const { return particles_.slots(); }
   // Step, time, index, hash and energies as recorded.
   [[nodiscard]] Header header(std::uint64_t index) const;
   // The same with the arrays.
@@ -30,9 +34,10 @@ class FrameTable {
 
  private:
   template <typename Make>
-  FrameTable(hsize_t particles, hsize_t bodies, hsize_t probes, Make make);
+  FrameTable(const Welcome& welcome, Make make);
   void check(const protocol::Message& frame) const;
 
+  ParticleTable particles_;
   std::vector<layout::Field> fields_;
   std::vector<layout::Observable> observables_;
   h5::Series step_, time_, time_ns_, hash_, checksum_;

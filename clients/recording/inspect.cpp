@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/recording/ledger.hpp"
+#include "clients/recording/selection.hpp"
 
 namespace sluice::clients {
 namespace {
@@ -150,6 +151,7 @@ Json describe(const Reader& recording) {
                  {"spacing", scene.spacing()},
                  {"fluid_particles", welcome.fluid_particles()},
                  {"boundary_particles", welcome.boundary_particles()},
+                 {"selection", selection_text(recording)},
                  {"bodies", bodies(scene)},
                  {"sound_speed", welcome.sound_speed()},
                  {"steps", welcome.steps()},
@@ -218,6 +220,8 @@ std::string inspect(const Reader& recording) {
                                       recording.scene().dimension(), recording.scene().spacing()));
   result += line("particles", fmt::format("{} fluid, {} boundary", welcome.fluid_particles(),
                                           welcome.boundary_particles()));
+  if (const std::string selected = selection_text(recording); !selected.empty())
+    result += line("recorded", selected);
   for (const auto& body : all["bodies"]) {
     result += line("body", fmt::format("{}: {}, {}", body["name"].get<std::string>(),
                                        body["shape"].get<std::string>(), body["motion"].get<std::string>()));

@@ -4,20 +4,28 @@
 #include <vector>
 
 #include "clients/recording/hdf5.hpp"
+#include "protocol/frame_layout.hpp"
 
 // Names and shapes in a recording; README.md describes them.
 namespace sluice::clients::layout {
 
-// Raised by any change that an older reader would misread.
-inline constexpr int kFormat = 1;
+// Raised by any change that an older reader would misread. What the scene's output selects is of format 2,
+// other recordings of 1 still.
+inline constexpr int kFormat = 2;
+inline int format_of(const Scene& scene) {
+  const bool is_whole = !protocol::particles_vary(scene) && protocol::particle_arrays(scene).size() == 4;
+  return is_whole && scene.output().precision() != FLOAT32 && protocol::particles_every(scene) == 1 ? 1 : 2;
+}
 inline constexpr const char* kCreator = "sluice";
 
 inline constexpr const char* kRunning = "running";
 inline constexpr std::size_t kReasonLength = 64;
 inline constexpr std::size_t kDetailLength = 1024;
 
-inline constexpr const char* kFrameStep = "/particles/fluid/position/step";
-inline constexpr const char* kFrameTime = "/particles/fluid/position/time";
+inline constexpr const char* kFrameStep = "/frames/step";
+inline constexpr const char* kFrameTime = "/frames/time";
+inline constexpr const char* kParticleStep = "/particles/fluid/position/step";
+inline constexpr const char* kParticleTime = "/particles/fluid/position/time";
 inline constexpr const char* kFrameTimeNs = "/frames/time_ns";
 inline constexpr const char* kFrameHash = "/frames/hash";
 inline constexpr const char* kProbes = "/observables/probe";
@@ -34,15 +42,39 @@ struct Field {
   std::string dataset;
   h5::Shape row;  // of one particle set, or of one step
   std::string unit;
+  Array::Type type = Array::FLOAT64;
 };
 
-// Arrays of a Frame in the order of the message, all float64; the hash of a frame is over them in this order.
-inline std::vector<Field> frame_fields(hsize_t particles, hsize_t bodies, hsize_t probes) {
-  std::vector<Field> fields{{"fluid/position", "/particles/fluid/position/value", {particles, 3}, "m"},
-                            {"fluid/velocity", "/particles/fluid/velocity/value", {particles, 3}, "m s-1"},
-                            {"fluid/density", "/particles/fluid/density/value", {particles}, "kg m-3"},
-                            {"fluid/pressure", "/particles/fluid/pressure/value", {particles}, "Pa"},
-                            {"body/kinematics", "/frames/kinematics", {bodies, 19}, ""},
+inline std::string unit_of(ParticleField field) {
+  switch (field) {
+    case POSITION:
+      return "m";
+    case VELOCITY:
+      return "m s-1";
+    case DENSITY:
+      return "kg m-3";
+    case PRESSURE:
+      return "Pa";
+    default:
+      return "";
+  }
+}
+
+// Arrays of the particles in a Frame, in the order of the message, where it has some.
+inline std::vector<Field> particle_fields(const Scene& scene, hsize_t particles) {
+  std::vector<Field> fields;
+  for (const protocol::ParticleArray& array : protocol::particle_arrays(scene)) {
+    h5::Shape row{particles};
+    if (array.components > 1) row.push_back(array.components);
+    fields.push_back(
+        {array.name, "/particles/" + array.name + "/value", row, unit_of(array.field), array.type});
+  }
+  return fields;
+}
+
+// Its other arrays, behind those. The hash of a frame is over all of them in this order.
+inline std::vector<Field> frame_fields(hsize_t bodies, hsize_t probes) {
+  std::vector<Field> fields{{"body/kinematics", "/frames/kinematics", {bodies, 19}, ""},
                             {"body/wrench", "/frames/wrench", {bodies, 6}, ""}};
   if (probes > 0) fields.push_back({"probe", std::string(kProbes) + "/value", {probes, 6}, ""});
   return fields;

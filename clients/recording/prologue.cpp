@@ -56,7 +56,7 @@ void write_parameters(hid_t file, const Message& message) {
   h5::write<std::uint8_t>(file, "/parameters/welcome",
                           {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
                           {bytes.size()});
-  h5::set_integers(file, "/parameters", "format", {layout::kFormat});
+  h5::set_integers(file, "/parameters", "format", {layout::format_of(welcome.scene())});
   h5::write_text(file, "/parameters/scene", scene_text(welcome.scene()));
   h5::write_text(file, "/parameters/scene_json", scene_json(welcome.scene()));
   h5::write_text(file, "/parameters/run_id", message.header.run_id());

@@ -42,9 +42,9 @@ void require_recording(hid_t file, const std::string& name) {
       h5::attribute(file, "/h5md/creator", "name") != layout::kCreator)
     throw InputError(name + " is an HDF5 file, but not a recording of sluice");
   const int format = h5::integer(file, "/parameters", "format");
-  if (format != layout::kFormat)
+  if (format < 1 || format > layout::kFormat)
     throw InputError(
-        fmt::format("{} is a recording of format {}, this program reads format {}; use the version of "
+        fmt::format("{} is a recording of format {}, this program reads format 1 to {}; use the version of "
                     "sluice that wrote it ({})",
                     name, format, layout::kFormat, h5::attribute(file, "/h5md/creator", "version")));
 }
@@ -117,8 +117,7 @@ class Reader::File {
   // do not have the checksum zero.
   void open_tables() {
     const auto bodies = static_cast<hsize_t>(welcome.scene().body_size());
-    frame_table = FrameTable::open(file, welcome.fluid_particles(), bodies,
-                                   static_cast<hsize_t>(welcome.scene().probe_size()));
+    frame_table = FrameTable::open(file, welcome);
     exchange_table = ExchangeTable::open(file, bodies);
     frames = frame_table->length();
     exchanges = exchange_table->length();
@@ -186,6 +185,15 @@ std::uint64_t Reader::exchanges() const {
 Header Reader::frame_header(std::uint64_t index) const {
   file_->require_frame(index);
   return reading(path(), [&] { return file_->frame_table->header(index); });
+}
+
+std::uint64_t Reader::particles(std::uint64_t index) const {
+  file_->require_frame(index);
+  return reading(path(), [&] { return file_->frame_table->particles(index); });
+}
+
+std::uint64_t Reader::slots() const {
+  return file_->frame_table->slots();
 }
 
 Message Reader::frame(std::uint64_t index) const {

@@ -43,6 +43,11 @@ class Reader {
   // Step, time, index, hash and energies of a frame, without its arrays.
   [[nodiscard]] Header frame_header(std::uint64_t index) const;
 
+  // Particles in a frame; 0 in one that was to have none (Output.particles_every).
+  [[nodiscard]] std::uint64_t particles(std::uint64_t index) const;
+  // The most in any.
+  [[nodiscard]] std::uint64_t slots() const;
+
   // The messages that were recorded, bit for bit; the sender's run id and version are set, sequence and token
   // are not. All throw InputError when the bytes are not those that were written.
   [[nodiscard]] protocol::Message welcome_message() const;

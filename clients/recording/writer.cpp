@@ -38,9 +38,7 @@ class Writer::File {
   File(OutputFile output, const Message& message, h5::Storage storage)
       : File(std::move(output), message.header.welcome()) {
     write_prologue(file_, message);
-    const Welcome& welcome = message.header.welcome();
-    frames_ = FrameTable::create(file_, welcome.fluid_particles(), bodies_,
-                                 static_cast<hsize_t>(welcome.scene().probe_size()), storage);
+    frames_ = FrameTable::create(file_, message.header.welcome(), storage);
     exchanges_ = ExchangeTable::create(file_, bodies_, storage);
     if (storage == h5::Storage::kPlain)
       h5::check(H5Fstart_swmr_write(file_), "start single-writer multiple-reader mode");

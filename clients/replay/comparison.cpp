@@ -3,17 +3,20 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <bit>
+#include <cstring>
 
+#include "clients/recording/element.hpp"
 #include "clients/recording/energy.hpp"
+#include "protocol/frame_layout.hpp"
 
 namespace sluice::clients {
 namespace {
 
 using protocol::Message;
 
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+template <typename T>
+bool same_bits(T a, T b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 constexpr std::array<const char*, 19> kKinematics = {"position x",
@@ -46,10 +49,14 @@ std::string component(std::size_t i) {
 // step.
 std::string element(const Message& message, const Array& array, std::size_t k, const Scene& scene) {
   const auto width = static_cast<std::size_t>(array.shape(array.shape_size() - 1));
-  if (array.name().starts_with("fluid/"))
-    return array.shape_size() == 2
-               ? fmt::format("{} {} of particle {}", array.name(), component(k), k / width)
-               : fmt::format("{} of particle {}", array.name(), k);
+  if (array.name().starts_with("fluid/")) {
+    const std::size_t row = array.shape_size() == 2 ? k / width : k;
+    const auto particle = message.has_array(protocol::kParticleId)
+                              ? message.array<std::int64_t>(protocol::kParticleId)[row]
+                              : static_cast<std::int64_t>(row);
+    return fmt::format("{}{} of particle {}", array.name(), array.shape_size() == 2 ? " " + component(k) : "",
+                       particle);
+  }
   const auto bodies = static_cast<std::size_t>(scene.body_size());
   const std::size_t row = k / width;
   const std::string& body = scene.body(static_cast<int>(row % bodies)).name();
@@ -75,13 +82,13 @@ std::optional<std::string> array_difference(const Message& recorded, const Messa
   const Array& b = now.header.array(i);
   if (a.SerializeAsString() != b.SerializeAsString())
     return fmt::format("array {}: recorded {}, now {}", i, a.ShortDebugString(), b.ShortDebugString());
-  const auto before = recorded.array<double>(a.name());
-  const auto after = now.array<double>(a.name());
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    if (!same_bits(before[k], after[k]))
-      return fmt::format("{}: recorded {}, now {}", element(recorded, a, k, scene), before[k], after[k]);
-  }
-  return std::nullopt;
+  return with_element(a.type(), [&]<typename T>(T /*element*/) -> std::optional<std::string> {
+    const auto before = recorded.array<T>(a.name()), after = now.array<T>(a.name());
+    for (std::size_t k = 0; k < before.size(); ++k)
+      if (!same_bits(before[k], after[k]))
+        return fmt::format("{}: recorded {}, now {}", element(recorded, a, k, scene), before[k], after[k]);
+    return std::nullopt;
+  });
 }
 
 std::optional<std::string> energy_difference(const Energy& recorded, const Energy& now) {

@@ -13,14 +13,17 @@ namespace sluice::clients {
 namespace {
 
 std::string with_recording(const Estimate& estimate, const Scene& scene) {
-  const std::uint64_t bytes = recording_bytes({.fluid_particles = estimate.fluid_particles,
+  const std::uint64_t recorded = most_recorded(scene, estimate.fluid_particles);
+  const std::uint64_t bytes = recording_bytes({.scene = scene,
+                                               .fluid_particles = recorded,
                                                .boundary_particles = estimate.boundary_particles,
-                                               .bodies = static_cast<std::uint64_t>(scene.body_size()),
-                                               .probes = static_cast<std::uint64_t>(scene.probe_size()),
                                                .frames = estimate.frames,
                                                .steps = estimate.steps});
-  return fmt::format("{}; a recording has {} frames and {:.0f} MB", to_string(estimate), estimate.frames,
-                     1e-6 * static_cast<double>(bytes));
+  const std::string of = recorded == estimate.fluid_particles
+                             ? ""
+                             : fmt::format(" of up to {} particles in its region", recorded);
+  return fmt::format("{}; a recording has {} frames{} and {:.0f} MB", to_string(estimate), estimate.frames,
+                     of, 1e-6 * static_cast<double>(bytes));
 }
 
 }  // namespace

@@ -50,6 +50,15 @@ TEST(Publishing, ASubscriberToTheStatusCostsNoFrames) {
   EXPECT_EQ(server.outcome().frames_serialised, 0u);
 }
 
+// Plays the ball's process up to the next output, the index-th; so the watcher never falls behind.
+void step_to_output(Peer& rigid, std::uint64_t index) {
+  for (std::uint64_t step = index == 0 ? 1 : 10 * index - 9; index > 0 && step <= 10 * index; ++step) {
+    Message message = kinematics(step, step, 1);
+    rigid.send(message);
+    ASSERT_TRUE(rigid.receive().header.has_wrenches());
+  }
+}
+
 TEST(Publishing, SendsEveryFrameToAWatcherThatKeepsUp) {
   TestServer server(ball());
   Watcher watcher(server.endpoint(), {"frame", "status"});
@@ -58,11 +67,7 @@ TEST(Publishing, SendsEveryFrameToAWatcherThatKeepsUp) {
   rigid.hello(RIGID);
 
   for (std::uint64_t index = 0; index <= 10; ++index) {
-    for (std::uint64_t step = index == 0 ? 1 : 10 * index - 9; index > 0 && step <= 10 * index; ++step) {
-      Message message = kinematics(step, step, 1);
-      rigid.send(message);
-      ASSERT_TRUE(rigid.receive().header.has_wrenches());
-    }
+    step_to_output(rigid, index);
     const Message frame = watcher.receive("frame");
     EXPECT_EQ(frame.header.frame().index(), index);
     EXPECT_EQ(frame.header.step(), 10 * index);
@@ -91,6 +96,29 @@ TEST(Publishing, FramesHoldTheState) {
   EXPECT_DOUBLE_EQ(frame.array<double>("fluid/position")[0], 0.05);
   EXPECT_EQ(frame.array<double>("body/kinematics")[1], 1.2);
   EXPECT_EQ(frame.array<double>("body/wrench")[2], 1);
+}
+
+TEST(Publishing, FramesHoldWhatTheSceneSelects) {
+  Scene scene = ball();
+  scene.mutable_output()->set_particles_every(2);
+  scene.mutable_output()->add_field(DENSITY);
+  scene.mutable_output()->set_precision(FLOAT32);
+  TestServer server(scene);
+  Watcher watcher(server.endpoint(), {"frame", "status"});
+  watcher.receive("status");
+  Peer rigid(server.endpoint());
+  rigid.hello(RIGID);
+  for (std::uint64_t index = 0; index <= 5; ++index) {
+    step_to_output(rigid, index);
+    const Message frame = watcher.receive("frame");
+    ASSERT_EQ(frame.header.frame().index(), index);
+    EXPECT_EQ(frame.has_array("fluid/position"), index % 2 == 0);
+    EXPECT_EQ(frame.has_array("fluid/density"), index % 2 == 0);
+    EXPECT_FALSE(frame.has_array("fluid/pressure"));
+    EXPECT_TRUE(frame.has_array("body/kinematics"));
+    if (index % 2 == 1) continue;
+    EXPECT_EQ(frame.array<float>("fluid/density")[0], 1000);
+  }
 }
 
 TEST(Publishing, TellsWatchersTheEnd) {

@@ -64,6 +64,19 @@ TEST_F(Resume, AGateThatIsStreamedAhead) {
   EXPECT_EQ(redriven.out, "identical\n") << redriven.err;
 }
 
+TEST_F(Resume, ARunOfWhichOnlySomeParticlesAreRecorded) {
+  expect_resumable("rising_gate",
+                   {"--set", "spacing=0.004", "--set", "output.particles_every=3", "--set",
+                    "output.region={min: [0.11, 0] max: [0.4, 0.2]}", "--set", "output.precision=FLOAT32",
+                    "--set", "output.field=[PRESSURE]"},
+                   "0.05", "0.1");
+  const clients::Reader recording = read("part.h5");
+  EXPECT_GT(recording.particles((recording.frames() - 1) / 3 * 3), 0u);
+  EXPECT_LT(recording.slots(), recording.welcome().fluid_particles());
+  const Outcome redriven = redrive("part.h5", "1");
+  EXPECT_EQ(redriven.out, "identical\n") << redriven.err;
+}
+
 TEST_F(Resume, AGateThatIsReleasedAndDrops) {
   expect_resumable("dropped_gate", {"--set", "spacing=0.008"}, "0.42", "0.6");
 }

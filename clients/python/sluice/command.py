@@ -86,8 +86,8 @@ def number(text):
 
 def add_picture(parser):
     """What a picture shows and how, of plot and movie."""
-    fields = "speed (default), pressure, density, velocity_x, velocity_y ..."
-    parser.add_argument("--field", default="speed", metavar="NAME", help=fields)
+    fields = "speed (default, where velocities are recorded), pressure, density, velocity_x, velocity_y ..."
+    parser.add_argument("--field", metavar="NAME", help=fields)
     parser.add_argument("--range", type=limits, metavar="LOW,HIGH", help="of the colours; from the frames by default")
     parser.add_argument("--particles", action="store_true", help="draw each particle as a disc, do not interpolate")
     views = ("xy", "xz", "yz", "yx", "zx", "zy")
@@ -103,13 +103,14 @@ def add_frames(parser):
     parser.add_argument("--every", type=positive, default=1, metavar="N", help="each Nth frame only")
 
 
-def chosen_frames(run_, options):
-    """The frames that the arguments of add_frames choose, at least one."""
+def chosen_frames(run_, options, among=None):
+    """The frames that the arguments of add_frames choose, at least one: of those that hold particles, or `among` some."""
+    among = run_.particle_frames if among is None else np.asarray(among, dtype=int)
     first = -np.inf if options.first is None else options.first
     last = np.inf if options.last is None else options.last
     margin = 1e-9
-    inside = np.flatnonzero((run_.times >= first - margin) & (run_.times <= last + margin))
+    times = run_.times[among]
+    inside = among[(times >= first - margin) & (times <= last + margin)]
     if not len(inside):
         raise RecordingError(f"{run_.path} has no frame from {first:g} to {last:g} s; {run_.span_text()}")
     return [int(frame) for frame in inside[:: options.every]]
-

@@ -2,7 +2,7 @@
 
 python3 -m sluice.diff A.h5 B.h5 [--field NAME,...] [--from T] [--until T] [--every N] [--tolerance R] [--csv FILE] [--all]
 
-Particles are matched by their identity, which is their row in every frame, bodies and probes by name, frames by time.
+Particles are matched by their identity, bodies and probes by name, frames by time.
 """
 
 import csv
@@ -15,6 +15,7 @@ from sluice.command import BAD_INPUT, DONE, Parser, add_frames, chosen_frames, n
 from sluice.probes import COLUMNS
 from sluice.recording import ENERGIES, FIELDS, Recording, RecordingError
 
+PARTICLES = "particles"  # that one recording has and the other has not, where their number varies
 SAME_TIME = 1  # two frames are of one time up to this [ns]
 HEADINGS = ("time_s", "field", "unit", "max", "l2", "relative", "at")
 BODY = {"body position": np.s_[0:3], "body velocity": np.s_[7:10], "body angular velocity": np.s_[10:13]}
@@ -70,14 +71,37 @@ class Quantity:
     def __init__(self, name, unit, read, labels=None, size=None):
         self.name, self.unit, self.read, self.labels, self.size = name, unit, read, labels, size
 
+    @property
+    def is_of_particles(self):
+        return self.name in FIELDS or self.name == PARTICLES
+
     def place(self, at):
         """What the row is, for people."""
         return self.labels[at] if self.labels else f"particle {at}" if self.name in FIELDS else ""
 
+    def has(self, run_, frame):
+        return not self.is_of_particles or frame in run_.particle_frames
+
+    def compare(self, a, i, b, j):
+        """The Norms at one time, or None where there is nothing of it; `at` is then a particle's identity."""
+        if not self.is_of_particles or not (a.varies or b.varies):
+            return norms(self.read(a, i), self.read(b, j), self.size)
+        ids = a.ids(i), b.ids(j)
+        both, *rows = np.intersect1d(*ids, assume_unique=True, return_indices=True)
+        if self.name == PARTICLES:
+            alone = len(ids[0]) + len(ids[1]) - 2 * len(both)
+            return Norms(float(alone), float(alone), alone / max(len(ids[0]), 1), 0)
+        if not len(both):
+            return None
+        result = norms(self.read(a, i)[rows[0]], self.read(b, j)[rows[1]])
+        result.at = int(both[result.at])
+        return result
+
 
 def particle_quantities(a, b):
     names = [name for name in a.fields if name in b.fields]
-    return [Quantity(name, FIELDS[name], lambda r, frame, name=name: r.field(name, frame)) for name in names]
+    result = [Quantity(name, FIELDS[name], lambda r, frame, name=name: r.field(name, frame)) for name in names]
+    return result + ([Quantity(PARTICLES, "", None)] if a.varies or b.varies else [])
 
 
 def body_quantities(a):
@@ -132,7 +156,7 @@ def quantities(a, b, wanted):
                 known = ", ".join(q.name for q in everything)
                 raise RecordingError(f"both recordings have no field {name!r}; choose from {known}")
         chosen = [q for q in everything if any(q.name == w or q.name.startswith(w + " ") for w in wanted)]
-    if any(q in per_particle for q in chosen):
+    if any(q in per_particle for q in chosen) and not (a.varies or b.varies):
         others = "compare --field energy or --field probe, which need no particles"
         require_same("a number of particles of", a, b, a.particles, b.particles, others)
     if any(q.name.startswith("body ") for q in chosen):
@@ -143,7 +167,7 @@ def quantities(a, b, wanted):
 def common_frames(a, b, options):
     """Pairs of frames of one time."""
     pairs = []
-    for frame in chosen_frames(a, options):
+    for frame in chosen_frames(a, options, range(a.frames)):
         near = int(np.searchsorted(b.time_ns, a.time_ns[frame] - SAME_TIME)) if b.frames else 0
         if near < b.frames and abs(int(b.time_ns[near]) - int(a.time_ns[frame])) <= SAME_TIME:
             pairs.append((frame, near))
@@ -159,7 +183,13 @@ def compare(a, b, options):
     """Rows (time, quantity, Norms), by time and then by quantity."""
     chosen = quantities(a, b, options.field)
     pairs = common_frames(a, b, options)
-    return [(float(a.times[i]), q, norms(q.read(a, i), q.read(b, j), q.size)) for i, j in pairs for q in chosen]
+    rows = [
+        (float(a.times[i]), q, q.compare(a, i, b, j)) for i, j in pairs for q in chosen if q.has(a, i) and q.has(b, j)
+    ]
+    rows = [row for row in rows if row[2] is not None]
+    if not rows:
+        raise RecordingError(f"{a.path} and {b.path} have no particles at a common time; compare --field energy or --field probe")
+    return rows
 
 
 def write_csv(rows, path):

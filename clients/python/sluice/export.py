@@ -73,7 +73,7 @@ def write_vtk(run_, frames, fields, directory):
 
 def particle_data(run_, frame, fields):
     data = {name: run_.field(name, frame) for name in fields if name != "position"}
-    return {**data, "particle": np.arange(run_.particles)}
+    return {**data, "particle": run_.ids(frame)}
 
 
 def write_table(path, headings, rows):
@@ -113,13 +113,14 @@ def body_tables(run_):
         yield name, ["time [s]", *KINEMATICS, *WRENCH], np.column_stack([time, kinematics[:, b], wrenches[:, b]])
 
 
-def write_csv(run_, frames, fields, directory):
-    """particles_N.csv a frame, frames.csv (energies, probes), a table a body; paths of what is first of each."""
+def write_csv(run_, frames, fields, directory, outputs):
+    """particles_N.csv a frame, frames.csv (energies, probes; a row of every output), a table a body; paths of the first
+    of each."""
     for frame in frames:
         headings, values = particle_table(run_, frame, fields)
-        rows = ((i, *row) for i, row in enumerate(values.tolist()))
+        rows = ((i, *row) for i, row in zip(run_.ids(frame).tolist(), values.tolist()))
         write_table(directory / f"particles_{frame:05d}.csv", ["particle", *headings], rows)
-    headings, values = frame_table(run_, frames)
+    headings, values = frame_table(run_, outputs)
     written = [directory / f"particles_{frames[0]:05d}.csv"]
     written.append(write_table(directory / "frames.csv", headings, values.tolist()))
     if run_.bodies:
@@ -150,7 +151,11 @@ def main(argv):
         if directory.exists() and not directory.is_dir():
             raise RecordingError(f"{directory} is a file; name a directory")
         directory.mkdir(parents=True, exist_ok=True)
-        written = (write_vtk if options.format == "vtk" else write_csv)(run_, frames, fields, directory)
+        if options.format == "vtk":
+            written = write_vtk(run_, frames, fields, directory)
+        else:
+            outputs = frames if options.times else chosen_frames(run_, options, range(run_.frames))
+            written = write_csv(run_, frames, fields, directory, outputs)
     for path in written:
         print(path)
     return DONE

@@ -62,7 +62,7 @@ def film(run_, frames, options, output):
     from sluice import picture, view
 
     the_view = view.make_view(run_, options.view, options.slice)
-    style = picture.Style(options.field, options.range, options.particles)
+    style = picture.Style(options.field or picture.first_field(run_), options.range, options.particles)
 
     def title(frame):
         return ", ".join(filter(None, [run_.name, picture.time_text(run_, run_.times[frame])]))

@@ -32,11 +32,18 @@ class Style:
     front: bool = False
 
 
+def first_field(run):
+    """What a picture shows unless asked otherwise: the speed, or what is recorded instead."""
+    shown = {"velocity": "speed", "pressure": "pressure", "density": "density"}
+    return next((field for recorded, field in shown.items() if recorded in run.fields), f"position_{'xyz'[run.dimension - 1]}")
+
+
 def color_map(field):
     if field == "speed":
         # Dark blue to pale yellow; white itself is where no liquid is.
         return LinearSegmentedColormap.from_list("speed", matplotlib.colormaps["YlGnBu_r"](np.linspace(0.08, 0.88, 256)))
-    return matplotlib.colormaps[{"pressure": "plasma", "density": "cividis"}.get(field, SIGNED)]
+    maps = {"pressure": "plasma", "density": "cividis"}
+    return matplotlib.colormaps["viridis" if field.startswith("position_") else maps.get(field, SIGNED)]
 
 
 def color_range(samples, field):

@@ -23,7 +23,7 @@ def chosen_frames(run_, options):
         return [run_.frame_at(time) for time in options.times]
     if options.time is not None:
         return [run_.frame_at(options.time)]
-    return [run_.index(-1 if options.frame is None else options.frame)]
+    return [int(run_.particle_frames[-1]) if options.frame is None else run_.index(options.frame)]
 
 
 def labels(runs):
@@ -47,7 +47,7 @@ def draw_fields(runs, options):
     if len(shots) == 1:
         shots = [(run_, frame, f"{title}, {text}".strip(", ")) for run_, frame, text in shots]
         title = ""
-    style = picture.Style(options.field, options.range, options.particles, options.front)
+    style = picture.Style(options.field or picture.first_field(runs[0]), options.range, options.particles, options.front)
     sheet, _ = picture.draw(shots, lambda run_: view.make_view(run_, options.view, options.slice), style, title)
     return sheet.figure
 

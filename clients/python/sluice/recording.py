@@ -8,7 +8,7 @@ import numpy as np
 
 from sluice import probes
 
-FORMAT = 1
+FORMAT = 2  # and those before
 FIELDS = {"position": "m", "velocity": "m/s", "density": "kg/m³", "pressure": "Pa"}
 DERIVED = {"speed": "m/s"}
 ENERGIES = ("kinetic", "potential", "elastic", "boundary_work")
@@ -41,6 +41,9 @@ def _is_open_for_writing(path):
 class Recording:
     """One run. `times` [s] and `time_ns` have an entry for each frame; fields are read when asked for, a frame at a time.
 
+    `fields` are those that the scene's output had recorded, `particle_frames` the frames that hold particles, and
+    `particles` the most in any; who they are say `ids`.
+
     >>> with Recording("run.h5") as run:
     ...     x = run.field("position", frame=-1)  # [particles, 3], m
     """
@@ -60,8 +63,8 @@ class Recording:
     def _read_header(self):
         parameters = self._file["parameters"]
         version = int(parameters.attrs["format"][0])
-        if version != FORMAT:
-            raise RecordingError(f"{self.path} has format {version}, this package reads format {FORMAT}")
+        if not 1 <= version <= FORMAT:
+            raise RecordingError(f"{self.path} has format {version}, this package reads format 1 to {FORMAT}")
         self.scene = json.loads(parameters["scene_json"][0])
         self.name = self.scene.get("name", "")
         self.spacing = self.scene["spacing"]
@@ -73,11 +76,18 @@ class Recording:
         self.particle_mass = float(parameters["particle_mass"][()])
         self.fields = [name for name in FIELDS if f"particles/fluid/{name}/value" in self._file]
         # A writer may be adding a frame, or was killed while it did: what all datasets have counts.
-        growing = [f"particles/fluid/{name}/value" for name in self.fields] + ["frames/step", "frames/checksum"]
+        growing = ["frames/step", "frames/checksum"]
         growing += ["frames/kinematics", "frames/wrench"] if self.bodies else []
         growing += ["observables/probe/value"] if self.probes else []
+        self._every = self.scene.get("output", {}).get("particles_every", 1)
+        self.varies = "particles/fluid/id" in self._file
+        by_particle = [f"particles/fluid/{name}/value" for name in self.fields + ["id"] * self.varies]
+        rows = [len(self._file[name]) * self._every for name in by_particle]
         self.frames = min(len(self._file[name]) for name in growing)
-        self.particles = self._file[growing[0]].shape[1] if self.fields else 0
+        self.frames = min([self.frames, *rows])
+        self.particle_frames = np.arange(0, self.frames, self._every)
+        self.particles = self._file[by_particle[0]].shape[1] if self.fields else 0
+        self._ids = None, None  # the frame read last, and those in it
         self.times = self._file["frames/time"][: self.frames]
         self.time_ns = self._file["frames/time_ns"][: self.frames]
 
@@ -104,23 +114,49 @@ class Recording:
         return index
 
     def frame_at(self, time):
-        """The frame nearest to a time [s], which may be off by half an output interval."""
+        """The frame with particles nearest to a time [s], which may be off by half the interval between two such."""
         if self.frames == 0:
             raise RecordingError(f"{self.path} holds no frame")
-        interval = self.times[1] - self.times[0] if self.frames > 1 else 0.0
-        first, last = self.times[0], self.times[-1]
+        times = self.times[self.particle_frames]
+        interval = times[1] - times[0] if len(times) > 1 else 0.0
+        first, last = times[0], times[-1]
         if not first - interval / 2 - 1e-9 <= time <= last + interval / 2 + 1e-9:
             raise RecordingError(f"time {time:g} s is not in {self.path}, which has {first:g} to {last:g} s")
-        return int(np.argmin(np.abs(self.times - time)))
+        return int(self.particle_frames[np.argmin(np.abs(times - time))])
 
-    def field(self, name, frame=-1):
-        """position, velocity [n, 3]; density, pressure [n]; and speed, velocity_x ..., position_x ... [n]."""
-        index = self.index(frame)
+    def _particle_frame(self, frame):
+        """The number of a frame that holds particles; of the last for None."""
+        if frame is None and self.frames:
+            return int(self.particle_frames[-1])
+        index = self.index(-1 if frame is None else frame)
+        if index % self._every:
+            frames = f"0, {self._every}, {2 * self._every} ..."
+            raise RecordingError(f"{self.path} has no particles in frame {index}, only in {frames} (output.particles_every)")
+        return index
+
+    def ids(self, frame=None):
+        """Who the particles of a frame are, in the order of its fields, ascending: [n]. Those of a run without selected
+        particles are 0, 1, ... in all frames."""
+        index = self._particle_frame(frame)
+        if not self.varies:
+            return np.arange(self.particles)
+        if self._ids[0] != index:
+            row = self._read("particles/fluid/id/value", index // self._every)
+            self._ids = index, row[row >= 0]
+        return self._ids[1]
+
+    def field(self, name, frame=None):
+        """position, velocity [n, 3]; density, pressure [n]; and speed, velocity_x ..., position_x ... [n].
+
+        Of the last frame that holds particles unless one is named.
+        """
+        index = self._particle_frame(frame)
         base, _, component = name.partition("_")
         if name == "speed":
             return np.linalg.norm(self.field("velocity", index), axis=1)
         if name in self.fields:
-            return self._read(f"particles/fluid/{name}/value", index).astype(float, copy=False)
+            row = self._read(f"particles/fluid/{name}/value", index // self._every)
+            return (row[: len(self.ids(index))] if self.varies else row).astype(float, copy=False)
         if base in ("position", "velocity") and component in ("x", "y", "z"):
             return self.field(base, index)[:, "xyz".index(component)]
         if name in FIELDS:

@@ -9,6 +9,8 @@ import messages_pb2 as messages
 from sluice import probes
 from sluice.link import PATIENCE, Clock, Link, Lost, arrays_of, make_socket, publish_address
 
+FIELDS = ("velocity", "density", "pressure")
+
 
 @dataclass
 class Status:
@@ -22,11 +24,16 @@ class Status:
 
 @dataclass
 class State:
-    """A frame. Particles are in the order of their identity; in two dimensions the third component is zero."""
+    """A frame. Particles are in the order of their identity; in two dimensions the third component is zero.
+
+    What the scene's output leaves out is None, of a frame without particles all of theirs; `particles_every`, `field`,
+    `region` and `precision` of protocol/scene.proto, Output, say what that is.
+    """
 
     index: int
     step: int
     time: float  # [s]
+    id: np.ndarray  # [n], identities, ascending
     position: np.ndarray  # [n, 3], m
     velocity: np.ndarray  # [n, 3], m/s
     density: np.ndarray  # [n], kg/m^3
@@ -35,6 +42,14 @@ class State:
     wrench: np.ndarray  # [bodies, 6], N and N m
     probes: dict  # name -> column -> value, as in probes.COLUMNS
     energy: object  # messages.proto, Energy
+
+
+def _particles(a):
+    """id, position, velocity, density and pressure from the arrays of a frame."""
+    position = a.get("fluid/position")
+    if position is None:
+        return [None] * 5
+    return [a.get("fluid/id", np.arange(len(position))), position, *(a.get(f"fluid/{n}") for n in FIELDS)]
 
 
 def _probes(scene, rows):
@@ -130,11 +145,11 @@ class Watcher:
             return Status(header.step, status.steps, time, status.steps_per_second)
         elif content == "frame":
             a = arrays_of(header, frames)
-            fluid = [a[f"fluid/{name}"] for name in ("position", "velocity", "density", "pressure")]
             measured = _probes(self.scene, a.get("probe", []))
             frame = header.frame
             return State(
-                frame.index, header.step, time, *fluid, a["body/kinematics"], a["body/wrench"], measured, frame.energy
+                frame.index, header.step, time, *_particles(a), a["body/kinematics"], a["body/wrench"], measured,
+                frame.energy,
             )
         return None
 

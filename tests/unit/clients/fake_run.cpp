@@ -8,6 +8,7 @@
 
 #include "clients/recording/writer.hpp"
 #include "clients/recording/xdmf.hpp"
+#include "protocol/frame_layout.hpp"
 #include "protocol/version.hpp"
 
 namespace sluice::clients::test {
@@ -55,6 +56,7 @@ Message FakeRun::welcome() const {
   scene.set_spacing(0.1);
   for (int axis = 0; axis < 2; ++axis) scene.mutable_domain()->add_max(2);
   scene.mutable_domain()->add_open(Y_MAX);
+  if (output.ByteSizeLong() > 0) *scene.mutable_output() = output;
   for (int b = 0; b < bodies; ++b) {
     Body& body = *scene.add_body();
     body.set_name("body" + std::to_string(b));
@@ -81,16 +83,38 @@ Message FakeRun::welcome() const {
   return message;
 }
 
+std::uint64_t FakeRun::particles_in(std::uint64_t index) const {
+  return output.has_region() ? (37 * index + 5) % (2 * particles) : particles;
+}
+
+void FakeRun::add_particles(Message& message, std::uint64_t index) const {
+  const Scene scene = welcome().header.welcome().scene();
+  if (!protocol::has_particles(scene, index)) return;
+  const std::uint64_t n = particles_in(index);
+  for (const protocol::ParticleArray& array : protocol::particle_arrays(scene)) {
+    std::vector<std::uint64_t> shape{n};
+    if (array.components > 1) shape.push_back(array.components);
+    const auto values =
+        noise(n * array.components, 10 * (index + 1) + static_cast<std::uint64_t>(array.field) - POSITION);
+    if (array.type == Array::INT64) {
+      std::vector<std::int64_t> ids(n);
+      for (std::size_t k = 0; k < n; ++k) ids[k] = static_cast<std::int64_t>(3 * k + index);
+      message.add_array<std::int64_t>(array.name, ids, shape);
+    } else if (array.type == Array::FLOAT32) {
+      message.add_array<float>(array.name, std::vector<float>(values.begin(), values.end()), shape);
+    } else {
+      message.add_array<double>(array.name, values, shape);
+    }
+  }
+}
+
 Message FakeRun::frame(std::uint64_t index) const {
   Message message = start();
   const auto m = static_cast<std::uint64_t>(bodies);
   message.header.set_step(index * steps_per_frame);
   message.header.set_time_ns(static_cast<std::int64_t>(index) * 10'000'000);
   const std::uint64_t seed = 10 * (index + 1);
-  add(message, "fluid/position", noise(3 * particles, seed), {particles, 3});
-  add(message, "fluid/velocity", noise(3 * particles, seed + 1), {particles, 3});
-  add(message, "fluid/density", noise(particles, seed + 2), {particles});
-  add(message, "fluid/pressure", noise(particles, seed + 3), {particles});
+  add_particles(message, index);
   add(message, "body/kinematics", noise(19 * m, seed + 4), {m, 19});
   add(message, "body/wrench", noise(6 * m, seed + 5), {m, 6});
   Frame& frame = *message.header.mutable_frame();

@@ -26,11 +26,17 @@ struct FakeRun {
   int bodies = 1;
   std::uint64_t steps_per_frame = 3;
   std::uint64_t frames = 20;
+  Output output{};  // what frames hold; with a region the number of their particles differs
 
   [[nodiscard]] protocol::Message welcome() const;
   [[nodiscard]] protocol::Message frame(std::uint64_t index) const;
   // The exchanges of the steps between frame index - 1 and frame index >= 1.
   [[nodiscard]] protocol::Message exchange_log(std::uint64_t index) const;
+  // In a frame that has particles.
+  [[nodiscard]] std::uint64_t particles_in(std::uint64_t index) const;
+
+ private:
+  void add_particles(protocol::Message& message, std::uint64_t index) const;
 };
 
 // Records the whole run and finishes the file.

@@ -208,10 +208,9 @@ TEST(RecordingSize, IsThatOfTheFile) {
   record(run, directory / "run.h5");
   const Welcome welcome = run.welcome().header.welcome();
   const double expected =
-      static_cast<double>(recording_bytes({.fluid_particles = run.particles,
+      static_cast<double>(recording_bytes({.scene = welcome.scene(),
+                                           .fluid_particles = run.particles,
                                            .boundary_particles = welcome.boundary_particles(),
-                                           .bodies = 2,
-                                           .probes = 0,
                                            .frames = run.frames + 1,
                                            .steps = run.frames * run.steps_per_frame}));
   EXPECT_NEAR(static_cast<double>(std::filesystem::file_size(directory / "run.h5")), expected,
