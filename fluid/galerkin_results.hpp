@@ -64,7 +64,7 @@ Diagnostics GalerkinSolver<Dim, Kernel>::diagnostics() const {
   }
   d.elastic += stored_in_guard();
   d.boundary_work = boundary_work_ + openings_.work();
-  d.openings.assign(openings_.passages().begin(), openings_.passages().end());
+  if (openings_.is_used()) d.openings = openings_.passages(fluid_);
   return d;
 }
 

@@ -100,7 +100,7 @@ void Openings<Dim>::find_velocity(std::size_t g, double dt, const Particles<Dim>
 // through the opening: along them u + 2 sqrt(g d) is the same on both sides (simple wave of shallow water),
 //   u = u0 + 2 (sqrt(g d0) - sqrt(g d)),
 // with the measured depth d, of which what changes faster than d0 / (2 sqrt(g d0)) is left out, and u0, which
-// follows u slowly, in 16 d0 / sqrt(g d0), so that d becomes d0. Nothing goes out.
+// follows u slowly, in 16 d0 / sqrt(g d0), so that d becomes d0.
 template <int Dim>
 double Openings<Dim>::hold_level(std::size_t g, double dt, const Particles<Dim>& fluid) {
   const Gate& gate = gates_[g];
@@ -111,8 +111,7 @@ double Openings<Dim>::hold_level(std::size_t g, double dt, const Particles<Dim>&
   const double depth = water_depth(g, fluid);
   if (dt == 0.0) hold = {depth, mean_speed(g, fluid)};
   hold.depth += std::min(1.0, dt / (0.5 * time)) * (depth - hold.depth);
-  const double speed =
-      std::max(0.0, hold.speed + 2.0 * (wave - std::sqrt(gravity_.norm() * std::max(0.0, hold.depth))));
+  const double speed = hold.speed + 2.0 * (wave - std::sqrt(gravity_.norm() * std::max(0.0, hold.depth)));
   hold.speed += std::min(1.0, dt / (16.0 * time)) * (speed - hold.speed);
   return speed;
 }
@@ -177,8 +176,8 @@ void Openings<Dim>::impose_density(Particles<Dim>& fluid, const Parallel& parall
   for_buffers(fluid, parallel,
               [&](std::size_t i, const Gate& gate, const Vec<Dim>& foot, const Column& column) {
                 double& rho = fluid.node[i].rho;
-                double taken = column.rho + slope.dot(fluid.node[i].x - foot);
-                if (!gate.given.inflow || gate.given.level) taken = std::max(taken, eos_.rest_density());
+                const double taken = std::max(column.rho + slope.dot(fluid.node[i].x - foot),
+                                              std::min(column.rho, eos_.rest_density()));
                 rho += (gate.takes_density() ? column.share : 1.0) * (taken - rho);
                 if (gate.given.inflow) fluid.mass[i] = rho * volume_;
               });
@@ -199,7 +198,7 @@ void Openings<Dim>::find_density(std::size_t g, const Particles<Dim>& fluid, con
   }
 }
 
-// The same fit of the density, with its gradient at rest across the plane.
+// The same fit of the density, with its gradient at rest across the plane. A buffer does not pull.
 template <int Dim>
 void Openings<Dim>::take_density(const Gate& gate, const Particles<Dim>& fluid, std::size_t c) {
   const Vec<Dim> foot = gate.foot(c);
@@ -212,7 +211,8 @@ void Openings<Dim>::take_density(const Gate& gate, const Particles<Dim>& fluid, 
   if (density.empty()) return;
   Vec<Dim> along = density.centroid();
   along[gate.axis] = 0.0;
-  column_[gate.first + c].rho = (density.mean() - density.slope(moment_floor_) * along)[0];
+  column_[gate.first + c].rho =
+      std::max(eos_.rest_density(), (density.mean() - density.slope(moment_floor_) * along)[0]);
 }
 
 template <int Dim>

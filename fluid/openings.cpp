@@ -96,6 +96,18 @@ bool Openings<Dim>::is_inside(const Vec<Dim>& x) const {
   return std::all_of(gates_.begin(), gates_.end(), [&](const Gate& gate) { return gate.distance(x) >= 0.0; });
 }
 
+// The rate is the momentum of the buffer over its depth.
+template <int Dim>
+std::vector<Passage> Openings<Dim>::passages(const Particles<Dim>& fluid) const {
+  std::vector<Passage> passages = passage_;
+  for (std::size_t i = 0; i < fluid.size(); ++i) {
+    if (fluid.opening[i] == 0) continue;
+    const Gate& gate = gates_[fluid.opening[i] - 1u];
+    passages[fluid.opening[i] - 1u].rate += fluid.mass[i] * fluid.node[i].v.dot(gate.normal()) / gate.depth();
+  }
+  return passages;
+}
+
 // Of liquid at rest up to the level [J/kg]; negative above.
 template <int Dim>
 double Openings<Dim>::head(const Gate& gate, const Vec<Dim>& x) const {
@@ -169,6 +181,7 @@ void Openings<Dim>::exchange(Particles<Dim>& fluid) {
   Halo<Dim>::remove(fluid);
   for (std::size_t i = 0; i < fluid.size(); ++i) cross(fluid, i);
   remove_left(fluid);
+  find_newest(fluid);
   for (std::size_t g = 0; g < gates_.size(); ++g)
     if (gates_[g].given.inflow) feed(fluid, g);
   fluid.divergence.resize(fluid.size());
@@ -233,6 +246,20 @@ void Openings<Dim>::remove_left(Particles<Dim>& fluid) {
   fluid.opening.resize(kept);
 }
 
+// Where there was backflow, the lattice does not stand where it did.
+template <int Dim>
+void Openings<Dim>::find_newest(const Particles<Dim>& fluid) {
+  std::vector<bool> is_found(column_.size(), false);
+  for (std::size_t i = 0; i < fluid.size(); ++i) {
+    if (fluid.opening[i] == 0) continue;
+    const Gate& gate = gates_[fluid.opening[i] - 1u];
+    const std::size_t c = gate.first + gate.column(fluid.node[i].x);
+    const double way = gate.distance(fluid.node[i].x) + gate.depth();
+    column_[c].way = is_found[c] ? std::min(column_[c].way, way) : way;
+    is_found[c] = true;
+  }
+}
+
 // The lattice of an inflow goes on at the buffer's outer end.
 template <int Dim>
 void Openings<Dim>::feed(Particles<Dim>& fluid, std::size_t g) {
@@ -240,7 +267,6 @@ void Openings<Dim>::feed(Particles<Dim>& fluid, std::size_t g) {
   const double spacing = gate.cell[gate.axis];
   for (std::size_t c = 0; c < gate.columns(); ++c) {
     Column& column = column_[gate.first + c];
-    while (column.way < -kTolerance * spacing_) column.way += spacing;
     while (column.way >= spacing) {
       column.way -= spacing;
       if (!is_wet(gate, c)) continue;

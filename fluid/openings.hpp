@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <tuple>
 #include <vector>
 
@@ -62,7 +61,7 @@ class Openings {
 
   // Energy brought in less energy taken out, and the buffers' work on the fluid [J].
   [[nodiscard]] double work() const { return work_; }
-  [[nodiscard]] std::span<const Passage> passages() const { return passage_; }
+  [[nodiscard]] std::vector<Passage> passages(const Particles<Dim>& fluid) const;
 
   // Whether x [m] is on the tank's side of all planes.
   [[nodiscard]] bool is_inside(const Vec<Dim>& x) const;
@@ -119,6 +118,7 @@ class Openings {
   void count(const Particles<Dim>& fluid, std::size_t i, std::size_t gate, double sign);
   [[nodiscard]] bool has_left(const Particles<Dim>& fluid, std::size_t i) const;
   void remove_left(Particles<Dim>& fluid);
+  void find_newest(const Particles<Dim>& fluid);
   void feed(Particles<Dim>& fluid, std::size_t gate);
 
   void find_velocity(std::size_t gate, double dt, const Particles<Dim>& fluid, const Parallel& parallel);

@@ -20,9 +20,10 @@ struct Snapshot {
   std::vector<std::uint32_t> id;  // [n] number; 0 to n - 1 without openings
 };
 
-// What went through an opening since the start [kg], per metre of depth in 2D.
+// What goes through an opening, per metre of depth in 2D.
 struct Passage {
-  double mass_in = 0, mass_out = 0;
+  double mass_in = 0, mass_out = 0;  // since the start [kg]
+  double rate = 0;                   // of what is behind the opening, into the tank [kg/s]
 };
 
 // Sums over the fluid particles; per metre of depth in 2D.

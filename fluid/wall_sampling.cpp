@@ -65,6 +65,10 @@ std::optional<Eigen::Vector3d> way_to_channel(const Tank& tank, int side, const 
   return nearest;
 }
 
+// A point counts for the channel's wall rather than for the side if the channel is nearer than this times the
+// side: else what passes the lip of a nozzle is held back by the side's first particles there.
+constexpr double kLip = 1.5;
+
 // The way from x [m] to the surface of the wall; nothing where there is no wall. `beyond` says of every axis
 // on which side of the tank x is, -1, 0 or 1. Behind an opening the tank goes on as a channel, with walls
 // `depth` [m] thick.
@@ -78,7 +82,7 @@ std::optional<Eigen::Vector3d> way_to_surface(const Tank& tank, const Eigen::Vec
     const auto to_channel = way_to_channel(tank, side, x);
     if (to_channel && to_channel->isZero(0)) continue;
     if (!tank.closed[side]) return std::nullopt;
-    if (to_channel && to_channel->norm() < std::abs(to_side))
+    if (to_channel && to_channel->norm() < kLip * std::abs(to_side))
       way += *to_channel;
     else
       way[a] = to_side;
