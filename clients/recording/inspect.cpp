@@ -89,6 +89,10 @@ Json probes(const Reader& recording) {
       probe["wetness"] = row[4];
     } else if (scene.probe(p).has_surface()) {
       probe["height"] = row[1] == 0 ? Json(nullptr) : Json(row[0]);
+    } else if (scene.probe(p).has_flow()) {
+      probe["rate"] = row[0];
+      probe["mass_in"] = row[1];
+      probe["mass_out"] = row[2];
     } else {
       probe["force"] = {row[0], row[1], row[2]};
       probe["moment"] = {row[3], row[4], row[5]};
