@@ -74,6 +74,7 @@ constexpr double kLip = 1.5;
 // `depth` [m] thick.
 std::optional<Eigen::Vector3d> way_to_surface(const Tank& tank, const Eigen::Vector3d& x,
                                               const std::array<int, 3>& beyond, double depth) {
+  const bool is_corner = std::count(beyond.begin(), beyond.end(), 0) < 2;
   Eigen::Vector3d way = Eigen::Vector3d::Zero();
   for (int a = 0; a < 3; ++a) {
     if (beyond[a] == 0) continue;
@@ -82,7 +83,7 @@ std::optional<Eigen::Vector3d> way_to_surface(const Tank& tank, const Eigen::Vec
     const auto to_channel = way_to_channel(tank, side, x);
     if (to_channel && to_channel->isZero(0)) continue;
     if (!tank.closed[side]) return std::nullopt;
-    if (to_channel && to_channel->norm() < kLip * std::abs(to_side))
+    if (to_channel && !is_corner && to_channel->norm() < std::min(depth, kLip * std::abs(to_side)))
       way += *to_channel;
     else
       way[a] = to_side;
