@@ -149,7 +149,8 @@ void Coupling::output(std::uint64_t step) {
   if (!published && !options_.expect_recorder) return;
   Message message = frame(simulation_, step, rows_);
   stamp(message.header);
-  ++frames_serialised_;
+  ++outcome_.frames_serialised;
+  count(message);
   if (published) publisher_.publish("frame", message);
   record_log();
   record(std::move(message));
@@ -197,7 +198,9 @@ void Coupling::end(Outcome& outcome) {
   ending_ = true;
   session_.finish();
   outcome.steps = step_;
-  outcome.frames_serialised = frames_serialised_;
+  outcome.frames_serialised = outcome_.frames_serialised;
+  outcome.messages_serialised = outcome_.messages_serialised;
+  outcome.bytes_serialised = outcome_.bytes_serialised;
   const auto message = [&] {
     Message end_message = server::end(step_, outcome.reason, outcome.detail, progress_.wall_seconds());
     stamp(end_message.header);
@@ -305,6 +308,11 @@ void Coupling::take_state(const Message& message) {
   }
 }
 
+void Coupling::count(const Message& message) {
+  ++outcome_.messages_serialised;
+  outcome_.bytes_serialised += bytes_of(message);
+}
+
 void Coupling::record(Message message) {
   if (!options_.expect_recorder) return;
   const milliseconds deadline = options_.recorder_deadline;
@@ -319,6 +327,7 @@ void Coupling::record(Message message) {
 void Coupling::record_log() {
   if (std::optional<Message> message = log_.take()) {
     stamp(message->header);
+    count(*message);
     record(std::move(*message));
   }
 }
@@ -337,6 +346,7 @@ void Coupling::publish_status() {
   if (!publisher_.wanted("status")) return;
   Message message = status(step_, simulation_.clock.steps(), progress_.wall_seconds(), rate);
   stamp(message.header);
+  count(message);
   publisher_.publish("status", message);
 }
 

@@ -13,6 +13,7 @@
 #include "server/session.hpp"
 #include "server/simulation.hpp"
 #include "server/sockets.hpp"
+#include "server/stop.hpp"
 
 namespace sluice::server {
 
@@ -62,6 +63,8 @@ class Coupling {
   void wait_for_kinematics(std::uint64_t step);
   void service(std::chrono::milliseconds timeout);
   void dispatch(const Session::Inbound& inbound);
+  // Notes a message that is made for the recorder or for watchers.
+  void count(const protocol::Message& message);
   void record(protocol::Message message);
   void record_log();
   void drain_recorder();
@@ -101,7 +104,7 @@ class Coupling {
   std::chrono::steady_clock::time_point polled_;
   std::vector<double> rows_;  // kinematics of the last step
   std::uint64_t step_ = 0;    // done
-  std::uint64_t frames_serialised_ = 0;
+  Outcome outcome_;           // what of it is counted on the way
   bool ending_ = false;
 };
 

@@ -8,6 +8,12 @@
 
 namespace sluice::server {
 
+std::size_t bytes_of(const protocol::Message& message) {
+  std::size_t bytes = message.header.ByteSizeLong();
+  for (const zmq::message_t& raw : message.frames) bytes += raw.size();
+  return bytes;
+}
+
 bool RecordStream::has_room() const {
   return in_flight_.size() < kMostMessages && bytes_ < kMostBytes;
 }
@@ -17,8 +23,7 @@ bool RecordStream::offer(protocol::Message& message) {
   message.header.set_sequence(last_sequence_ + 1);
   if (!protocol::send(push_, message)) return false;
   ++last_sequence_;
-  std::size_t bytes = message.header.ByteSizeLong();
-  for (const zmq::message_t& raw : message.frames) bytes += raw.size();
+  const std::size_t bytes = bytes_of(message);
   in_flight_.push_back({bytes, message.header.step()});
   bytes_ += bytes;
   return true;

@@ -7,6 +7,9 @@
 
 namespace sluice::server {
 
+// Of the header and the arrays.
+std::size_t bytes_of(const protocol::Message& message);
+
 // The lossless stream to the recorder: at most kMostMessages or about kMostBytes are sent and not
 // acknowledged; then the run has to wait. Nothing is ever dropped.
 class RecordStream {

@@ -33,8 +33,9 @@ class Refused : public std::runtime_error {
 struct Outcome {
   End::Reason reason = End::UNKNOWN;
   std::string detail;
-  std::uint64_t steps = 0;              // done
-  std::uint64_t frames_serialised = 0;  // 0 when nobody wanted any
+  std::uint64_t steps = 0;  // done
+  // Made for the recorder and for watchers; nothing when nobody wanted any.
+  std::uint64_t frames_serialised = 0, messages_serialised = 0, bytes_serialised = 0;
 };
 
 // "FINISHED - 4000 steps, 0.4 s simulated"

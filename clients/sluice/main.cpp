@@ -34,7 +34,7 @@ constexpr std::array kForwarded{
     Forwarded{"watch", "sluice-watch", "Follow a run as text: --connect ENDPOINT"},
     Forwarded{"replay", "sluice-replay",
               "Publish a recorded run, or compute it again with --redrive: RUN.h5"},
-    Forwarded{"bench", "sluice-bench", "Measure errors against run time: accuracy"},
+    Forwarded{"bench", "sluice-bench", "Measure: accuracy, stability, speed, recording"},
 };
 
 constexpr std::array kPython{

@@ -5,6 +5,7 @@
 
 #include "benchmark/accuracy.hpp"
 #include "benchmark/formulations.hpp"
+#include "benchmark/recording.hpp"
 #include "benchmark/speed.hpp"
 #include "benchmark/speed_scenes.hpp"
 #include "benchmark/stability.hpp"
@@ -90,6 +91,21 @@ CLI::App* add_speed(CLI::App& app, SpeedOptions& options) {
   return command;
 }
 
+CLI::App* add_recording(CLI::App& app, RecordingOptions& options) {
+  CLI::App* command = app.add_subcommand("recording", "What frames for a recorder cost the server");
+  command->add_option("--particles", options.particles, "Particles of the liquid")
+      ->check(CLI::Range(100.0, 1e7))
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--pairs", options.pairs, "Pairs of runs, with a recorder and without")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_flag("--quick", options.quick, "Few frames; nothing is stated of those");
+  command->add_option("--csv", options.csv, "Write the times of every pair to this file")->type_name("FILE");
+  return command;
+}
+
 int bench(int argc, char** argv) {
   CLI::App app{"What the solver's results are worth and what they cost."};
   app.name("sluice bench");
@@ -102,12 +118,15 @@ int bench(int argc, char** argv) {
   const CLI::App* checks_stability = add_stability(app, of_stability);
   SpeedOptions of_speed;
   add_speed(app, of_speed);
+  RecordingOptions of_recording;
+  const CLI::App* measures_recording = add_recording(app, of_recording);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? protocol::kDone : protocol::kBadInput;
   }
   if (measures_accuracy->parsed()) return accuracy(of_accuracy);
+  if (measures_recording->parsed()) return recording(of_recording);
   return checks_stability->parsed() ? stability(of_stability) : speed(of_speed);
 }
 

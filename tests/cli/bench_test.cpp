@@ -63,6 +63,18 @@ TEST(Bench, MeasuresSpeedAndComparesWithItself) {
   EXPECT_THAT(broken.err, HasSubstr("b.csv:4: cannot be read"));
 }
 
+TEST(Bench, MeasuresWhatFramesCost) {
+  const TemporaryDirectory directory;
+  const Outcome outcome = run_program(
+      "sluice", {"bench", "recording", "--quick", "--particles", "800", "--pairs", "2", "--csv", "r.csv"},
+      directory.path());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("2 pairs of runs"), HasSubstr("a frame [ms]")));
+  const std::string csv = read_text(directory.path() / "r.csv");
+  EXPECT_THAT(csv, HasSubstr("rate,frames,steps,without_s,with_s\n100,3,"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
+}
+
 TEST(Bench, RefusesChecksThatDoNotExist) {
   const TemporaryDirectory directory;
   const Outcome outcome = run_program("sluice", {"bench", "stability", "--case", "rain"}, directory.path());

@@ -38,6 +38,29 @@ TEST(Publishing, SerialisesNothingWithoutSubscribers) {
   const server::Outcome outcome = server.outcome();
   EXPECT_EQ(outcome.reason, End::FINISHED);
   EXPECT_EQ(outcome.frames_serialised, 0u);
+  EXPECT_EQ(outcome.messages_serialised, 0u);
+  EXPECT_EQ(outcome.bytes_serialised, 0u);
+}
+
+// What is counted are all messages for recorder and watchers.
+TEST(Publishing, SerialisesForARecorderWhatItGets) {
+  TestServer server(tank(), with_recorder());
+  TestRecorder recorder(server.endpoint());
+  const std::vector<Message> messages = recorder.record();
+  const server::Outcome outcome = server.outcome();
+  EXPECT_EQ(outcome.frames_serialised, 11u);
+  EXPECT_EQ(outcome.messages_serialised, messages.size() - 1);  // but for the end
+  EXPECT_GT(outcome.bytes_serialised, 11u * 50 * 8 * 8);
+}
+
+TEST(Publishing, SerialisesLessOfWhatIsSelected) {
+  Scene scene = tank();
+  scene.mutable_output()->set_particles_every(5);
+  scene.mutable_output()->set_precision(FLOAT32);
+  TestServer server(scene, with_recorder());
+  TestRecorder recorder(server.endpoint());
+  (void)recorder.record();
+  EXPECT_LT(server.outcome().bytes_serialised, 3u * 50 * 8 * 4 + 11u * 500);
 }
 
 TEST(Publishing, ASubscriberToTheStatusCostsNoFrames) {

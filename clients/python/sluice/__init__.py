@@ -8,8 +8,8 @@ from importlib import import_module
 
 _HOMES = {
     "Recording": "recording", "RecordingError": "recording", "Participant": "participant", "Watcher": "watcher",
-    "State": "watcher", "Status": "watcher", "run": "launch", "sweep": "launch", "RunError": "launch",
-    "write_table": "launch", "table_text": "launch",
+    "State": "watcher", "Status": "watcher", "run": "launch", "resume": "launch", "RunError": "launch",
+    "sweep": "sweeps", "write_table": "sweeps", "table_text": "sweeps",
 }
 __all__ = list(_HOMES)
 

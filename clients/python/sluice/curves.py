@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from sluice.drawing import Figure
 from sluice.ledger import ledgers
 from sluice.probes import COLUMNS
 from sluice.recording import RecordingError

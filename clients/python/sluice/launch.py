@@ -1,18 +1,15 @@
-"""Runs scenes: one, with progress, or many at a time."""
+"""Runs scenes and goes on with them, with progress."""
 
-import csv
-import itertools
 import json
 import os
 import shutil
 import subprocess
 import tempfile
 import threading
-from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from pathlib import Path
 
 from sluice.progress import Bar
-from sluice.recording import Recording
 
 
 class RunError(Exception):
@@ -66,24 +63,50 @@ def run(scene, output=None, settings=None, spacing=None, until=None, threads=Non
     `settings` changes fields of the scene, {"body[0].density": 500}; `spacing` [m] is one of them. `until` [s] ends the
     run early. `output` is the recording to make, which `force` allows to replace. `motion(endpoint)`, given, moves the
     bodies in place of `sluice rigid` (sluice.Participant) and returns when the run is over; the summary is then short.
+    A run that ends before its scene leaves a checkpoint beside the recording, which resume() goes on from.
     `show(fraction)` is told the progress; a bar is drawn on a terminal unless it is given. Raises RunError when the run
     does not finish.
     """
     settings = {**({"spacing": spacing} if spacing is not None else {}), **(settings or {})}
     options = [str(scene), *_options(settings, until, threads)]
-    bar = Bar()
-    tell = show or (lambda fraction: bar.show(fraction, f"{Path(scene).name} {100 * fraction:.0f} %"))
-    try:
+    with _telling(scene, show) as tell:
         if motion is not None:
             _require_runnable([str(scene), *_settings(settings)], output, force)
-            return _run_with(motion, options, output, force)
-        return _run_alone(options, output, force, tell)
+            return _run_with(motion, ["--scene", *options], output, [], force, tell)
+        return _run_alone(["run", *options], output, force, tell)
+
+
+def resume(checkpoint, recording=None, output=None, until=None, threads=None, force=False, motion=None, show=None):
+    """Goes on with a run from its checkpoint, as `sluice resume`, or where `motion` is given with bodies that it moves.
+
+    `recording` is that of the run so far, RUN.h5 beside RUN.checkpoint unless it is named; it goes on, or is the beginning of
+    `output`. The rest is as of run(). To be the run that was never stopped, `motion` has to do from Participant.done on what it
+    would have done: a function of time does, a controller has to keep its own state.
+    """
+    checkpoint = Path(checkpoint)
+    recording = Path(recording) if recording else checkpoint.with_suffix(".h5")
+    output = Path(output) if output else recording
+    options = [str(checkpoint), *_options({}, until, threads)]
+    with _telling(checkpoint, show) as tell:
+        if motion is None:
+            return _run_alone(["resume", *options, "--recording", str(recording)], output, force, tell)
+        if not recording.is_file():
+            raise RunError(f"{recording} is not there; name the recording of the run so far")
+        return _run_with(motion, ["--resume", *options], output, ["--resume", str(recording)], force, tell)
+
+
+@contextmanager
+def _telling(what, show):
+    """A function that takes the fraction done, for the caller or for a bar on the terminal."""
+    bar = Bar()
+    try:
+        yield show or (lambda fraction: bar.show(fraction, f"{Path(what).name} {100 * fraction:.0f} %"))
     finally:
         bar.clear()
 
 
-def _run_alone(options, output, force, tell):
-    words = [program(), "run", *options, "--json"]
+def _run_alone(command, output, force, tell):
+    words = [program(), *command, "--json"]
     words += ["-o", str(output)] if output else []
     words += ["--force"] if force else []
     process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, stdin=subprocess.DEVNULL)
@@ -133,19 +156,51 @@ def start(words, log):
     return subprocess.Popen([program(), *words], stdout=log, stderr=log, stdin=subprocess.DEVNULL)
 
 
-def _run_with(motion, options, output, force):
-    """Server and recorder as processes of their own, the bodies moved here."""
+class _Follower(threading.Thread):
+    """Tells how far a run is that other processes compute, until it ends or is stopped."""
+
+    def __init__(self, endpoint, tell):
+        super().__init__(daemon=True)
+        self._endpoint, self._tell, self._stopped = endpoint, tell, False
+        self.start()
+
+    def run(self):
+        from sluice.link import Ended, Lost
+        from sluice.watcher import Watcher
+
+        try:
+            with Watcher(self._endpoint, topics=("status",)) as watched:
+                while not self._stopped and watched.end is None:
+                    status = watched.receive(timeout=0.2)
+                    if status and not self._stopped:
+                        self._tell(status.step / max(status.steps, 1))
+        except (Lost, Ended):
+            pass  # who waits for the server says so
+
+    def stop(self):
+        self._stopped = True
+        self.join(timeout=1)
+
+
+def _run_with(motion, serve, output, record, force, tell):
+    """Server and recorder as processes of their own, with these words; the bodies moved here."""
     with tempfile.TemporaryDirectory(prefix="sluice-", dir=os.environ.get("XDG_RUNTIME_DIR")) as directory:
         endpoint = f"ipc://{directory}/run.ipc"
-        serve = ["serve", "--scene", *options, "--listen", endpoint] + (["--expect-recorder"] if output else [])
+        words = ["serve", *serve, "--listen", endpoint]
+        if output:
+            words += ["--expect-recorder", "--checkpoint", str(Path(output).with_suffix(".checkpoint"))]
         with tempfile.TemporaryFile("w+") as log:
-            processes = [start(serve, log)]
+            processes = [start(words, log)]
             try:
                 if output:
-                    record = ["record", "--connect", endpoint, "-o", str(output)] + (["--force"] if force else [])
-                    processes.append(start(record, log))
-                motion(endpoint)
-                codes = [process.wait() for process in processes]
+                    words = ["record", "--connect", endpoint, "-o", str(output), *record] + (["--force"] if force else [])
+                    processes.append(start(words, log))
+                follower = _Follower(endpoint, tell)
+                try:
+                    motion(endpoint)
+                    codes = [process.wait() for process in processes]
+                finally:
+                    follower.stop()
             finally:
                 for process in processes:
                     process.terminate()
@@ -153,81 +208,5 @@ def _run_with(motion, options, output, force):
             if any(codes):
                 log.seek(0)
                 raise RunError("; ".join(line.strip() for line in log.readlines()[-3:]))
+    tell(1.0)
     return {"status": "FINISHED", "exit_code": 0, "recording": {"path": str(output)} if output else None}
-
-
-def _points(values):
-    """Settings of every run: all combinations of a dict of lists, or a list of dicts as it is."""
-    if not isinstance(values, dict):
-        return [dict(point) for point in values]
-    return [dict(zip(values, chosen)) for chosen in itertools.product(*values.values())]
-
-
-def sweep(scene, values, measure=None, directory=None, at_once=2, until=None, threads=1, show=None):
-    """Runs a scene with many settings, `at_once` of them at a time; a table: a list of dicts, one a run.
-
-    `values` is {"spacing": [0.004, 0.002], "body[0].density": [400, 600]}, of which all combinations are run, or a list
-    of settings. A row has the settings, then status, detail, fluid_particles, wall_seconds, recording, and what
-    `measure(recording)`, a function of a Recording, returns as a dict. A run that fails is a row that says so.
-    Recordings are `directory`/run_0.h5 ...; without a directory they are gone after the sweep.
-    """
-    points = _points(values)
-    done, fractions = [], [0.0] * len(points)
-    bar = Bar()
-
-    def note(number, fraction):
-        fractions[number] = fraction
-        mean = sum(fractions) / max(len(points), 1)
-        if show:
-            show(mean)
-        bar.show(mean, f"{len(done)} of {len(points)} runs")
-
-    def one(number):
-        path = Path(kept) / f"run_{number}.h5"
-        row = dict(points[number])
-        try:
-            summary = run(
-                scene, path, points[number], until=until, threads=threads, force=True, show=lambda f: note(number, f)
-            )
-            with Recording(path) as recording:
-                measured = measure(recording) if measure else {}
-        except RunError as error:
-            summary, measured = {"status": "FAILED", **error.summary, "detail": str(error)}, {}
-        row.update({name: summary.get(name) for name in ("status", "detail", "fluid_particles", "wall_seconds")})
-        row["recording"] = str(path) if directory and path.exists() else None
-        done.append(number)
-        note(number, 1.0)
-        return {**row, **measured}
-
-    with tempfile.TemporaryDirectory(prefix="sluice-") as scratch:
-        kept = directory or scratch
-        Path(kept).mkdir(parents=True, exist_ok=True)
-        with ThreadPoolExecutor(at_once) as pool:
-            table = list(pool.map(one, range(len(points))))
-    bar.clear()
-    return table
-
-
-def columns_of(table):
-    """All columns of a table, in the order in which they first come."""
-    return list(dict.fromkeys(name for row in table for name in row))
-
-
-def write_table(table, path):
-    """A table as CSV."""
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, columns_of(table))
-        writer.writeheader()
-        writer.writerows(table)
-
-
-def table_text(table):
-    """A table for people."""
-    names = columns_of(table)
-    cells = [names] + [[_cell(row.get(name)) for name in names] for row in table]
-    widths = [max(len(line[k]) for line in cells) for k in range(len(names))]
-    return "\n".join("  ".join(text.ljust(width) for text, width in zip(line, widths)).rstrip() for line in cells)
-
-
-def _cell(value):
-    return "" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -14,7 +14,8 @@ class Participant:
     """The connection: greets, sends kinematics, gives wrenches and what the probes measure.
 
     `scene` is the run's scene (scene.proto), `clock` its Clock, `wrenches` [bodies, 6] the fluid's force [N] and
-    moment about the centre of mass [N m] on every body at the last step answered, at time 0 to begin with.
+    moment about the centre of mass [N m] on every body at the last step answered, at time 0 to begin with. `done` are the
+    steps that were done before it joined: 0, or in a run that is resumed those up to the checkpoint; the next comes first.
     """
 
     def __init__(self, endpoint, program="python", keys=None):
@@ -27,6 +28,7 @@ class Participant:
             self._context.destroy(linger=0)
             raise
         self.scene, self.clock = self._link.welcome.scene, Clock(self._link.welcome)
+        self.done = self._link.welcome.done
         self.wrenches = self._link.arrays["wrenches"]
         self._probes = self._link.arrays.get("probe")
 
@@ -61,17 +63,17 @@ class Participant:
         return self.wrenches
 
     def drive(self, motions, control=None):
-        """Moves all bodies through the whole run, or until the server ends it; its End, which says why.
+        """Moves all bodies through the whole run, or what is left of it, until the server ends it; its End, which says why.
 
         `motions` has for every body's name an object with row(step, clock), its kinematics [19] over a step, asked for in
-        order (sluice.motion). `control(run, time)` is called at time 0 and at every output, when the probes are fresh, and
+        order (sluice.motion). `control(run, time)` is called at the start and at every output, when the probes are fresh, and
         may change what the motions do from then on.
         """
         names = [body.name for body in self.scene.body]
         if sorted(motions) != sorted(names):
             raise ValueError(f"there are motions for {sorted(motions)}, the scene's bodies are {names}; give one for each")
         try:
-            for step in range(1, self.clock.steps + 1):
+            for step in range(self.done + 1, self.clock.steps + 1):
                 if control and (step - 1) % self.clock.steps_per_output == 0:
                     control(self, self.clock.time(step - 1))
                 self.step(step, [motions[name].row(step, self.clock) for name in names])

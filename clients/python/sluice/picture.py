@@ -2,16 +2,13 @@
 
 from dataclasses import dataclass
 
-import matplotlib
 import numpy as np
-from matplotlib.cm import ScalarMappable
-from matplotlib.collections import PolyCollection
-from matplotlib.colors import LinearSegmentedColormap, Normalize
-from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
 from sluice import raster, shapes
 from sluice import view as views
+from sluice.drawing import (
+    Figure, LinearSegmentedColormap, Normalize, PolyCollection, Rectangle, ScalarMappable, matplotlib,
+)
 from sluice.recording import RecordingError
 
 DPI = 150
@@ -237,7 +234,7 @@ def draw(shots, view_of, style, title="", sampled=None):
     panels = []
     for number, (run, frame, text) in enumerate(shots):
         axes = sheet.axes(number)
-        panel = Panel(axes, run, view_of(run), corners, style, norm, round(1.25 * DPI * max(sheet.width, sheet.height)))
+        panel = Panel(axes, run, view_of(run), corners, style, norm, round(DPI * max(sheet.width, sheet.height)))
         panel.show(frame, text)
         right, up = view_of(run).labels()
         if number + sheet.columns >= len(shots):

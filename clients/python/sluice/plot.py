@@ -99,7 +99,9 @@ def main(argv):
         runs = [stack.enter_context(Recording(path)) for path in options.recordings]
         over_time = options.probes is not None or options.bodies or options.energy or options.ledger
         figure = (draw_curves if over_time else draw_fields)(runs, options)
-    figure.savefig(output, dpi=150)
+    from sluice.drawing import save
+
+    save(figure, output, dpi=150)
     print(output)
     return DONE
 

@@ -70,6 +70,36 @@ def mirrored(places, values, lower, upper, reach):
     return places, values[origin], origin
 
 
+def _bands(grid, places, radius):
+    """Blocks of particles, by height, and the rows of pixels that each reaches: as pixels of an image that has a margin of
+    `reach` all around, so that a square of pixels about any particle lies in it. Particles beyond the margin are left out.
+
+    Yields the particles [n], the pixel [n, side * side] of each within its band, the band, and squared distances [n, side, side]
+    over radius^2; the margin comes first of all.
+    """
+    reach = int(np.ceil(radius / grid.pixel))
+    yield reach
+    span = np.arange(-reach, reach + 1)
+    width = grid.width + 2 * reach
+    cell = np.floor((places - grid.lower) / grid.pixel).astype(int)
+    seen = np.all((cell >= -reach) & (cell < np.array([grid.width, grid.height]) + reach), axis=1)
+    # Half a margin outside, the square would leave the image: such a particle's cell is moved in, and its distances tell.
+    cell = np.clip(cell, 0, [grid.width - 1, grid.height - 1])
+    order = np.flatnonzero(seen)
+    order = order[np.argsort(cell[order, 1], kind="stable")]
+    block = max(1, BLOCK // len(span) ** 2)
+    for start in range(0, len(order), block):
+        some = order[start : start + block]
+        column, row = cell[some, 0, None] + span, cell[some, 1, None] + span
+        dx = ((column + 0.5) * grid.pixel + (grid.lower[0] - places[some, 0, None])) / radius
+        dy = ((row + 0.5) * grid.pixel + (grid.lower[1] - places[some, 1, None])) / radius
+        square = (dy * dy).astype(np.float32)[:, :, None] + (dx * dx).astype(np.float32)[:, None, :]
+        first = int(row[0, 0]) + reach
+        pixel = (row[:, :, None] + (reach - first)) * width + (column[:, None, :] + reach)
+        band = slice(first * width, (int(row[-1, -1]) + reach + 1) * width)
+        yield some, pixel.ravel(), band, square
+
+
 def interpolate(grid, places, values, spacing, volumes=None):
     """Shepard interpolation with Wendland's C2 kernel in the plane, Monaghan, Rep. Prog. Phys. 68 (2005) 1703, eq. 2.7.
 
@@ -78,22 +108,32 @@ def interpolate(grid, places, values, spacing, volumes=None):
     given.
     """
     radius = SUPPORT * spacing
-    total, image, edge = np.zeros((3, grid.width * grid.height))
-    for pixel, particle, square in _pairs(grid, places, radius):
-        q = np.sqrt(square) / radius
-        weight = 7 / (np.pi * SUPPORT**2) * (1 - q) ** 4 * (1 + 4 * q)
+    bands = _bands(grid, places, radius)
+    margin = next(bands)
+    shape = grid.height + 2 * margin, grid.width + 2 * margin
+    total, image = np.zeros((2, shape[0] * shape[1]))
+    edge = np.zeros(total.shape, bool)
+    core = np.float32(max(DISC * spacing - grid.pixel, 0.0) / radius) ** 2
+    for particles, pixel, band, square in bands:
+        if volumes is None and core > 0:
+            edge[band][pixel[(square < core).ravel()]] = True
+        q = np.sqrt(np.minimum(square, 1, out=square), out=square)
+        weight = (1 - q) ** 2
+        weight *= weight
+        weight *= 1 + 4 * q
+        weight *= np.float32(7 / (np.pi * SUPPORT**2))
         if volumes is not None:
-            weight *= volumes[particle]
-        total += np.bincount(pixel, weight, len(total))
-        image += np.bincount(pixel, weight * values[particle], len(total))
-        if volumes is None:
-            edge[pixel[square < (DISC * spacing - grid.pixel) ** 2]] = 1
+            weight *= volumes[particles, None, None].astype(np.float32)
+        length = band.stop - band.start
+        total[band] += np.bincount(pixel, weight.ravel(), length)
+        image[band] += np.bincount(pixel, (weight * values[particles, None, None]).ravel(), length)
+    total, image, edge = (part.reshape(shape)[margin:-margin, margin:-margin] for part in (total, image, edge))
     with np.errstate(invalid="ignore", divide="ignore"):
-        image /= total
+        image = image / total
     steepness = grid.pixel / spacing  # about the change of the sum over a pixel at a surface
     opacity = np.maximum(np.clip(0.5 + (total - SURFACE) / steepness, 0, 1), edge)
     image[opacity == 0] = np.nan
-    return grid.shaped(image, opacity, np.ones_like(image))
+    return image, opacity, np.ones_like(image)
 
 
 def discs(grid, places, values, spacing, depth=None):

@@ -2,8 +2,10 @@
 
 import json
 import subprocess
+import threading
 import unittest
 
+import h5py
 import numpy as np
 import sluice
 from scenes import SOURCE, Case
@@ -45,6 +47,22 @@ class RunTest(Case):
             time, kinematics, _ = run.exchange()
             np.testing.assert_allclose(kinematics[:, 0, 1], 1 + 0.1 * time**2, rtol=1e-12)
 
+    def test_the_progress_of_a_run_whose_bodies_are_moved_here_is_told(self):
+        told, begun = [], threading.Event()
+
+        def show(fraction):
+            told.append(fraction)
+            begun.set()
+
+        def move(endpoint):
+            with sluice.Participant(endpoint) as run:
+                self.assertTrue(begun.wait(30))
+                run.drive({"gate": Function(run.scene.body[0], lambda t: (0, 0))})
+
+        sluice.run(self.scene, until=0.05, threads=1, motion=move, show=show)
+        self.assertEqual((told[0], told[-1]), (0.0, 1.0))
+        self.assertEqual(told, sorted(told))
+
     def test_nothing_is_started_for_a_motion_when_the_scene_is_wrong(self):
         def move(endpoint):
             self.fail("it was asked for a motion")
@@ -72,6 +90,44 @@ class RunTest(Case):
 
         with self.assertRaisesRegex(Exception, "kinematics of body 0 at step 1: entry 0 is nan"):
             sluice.run(self.scene, until=0.1, threads=1, motion=move)
+
+
+class ResumeTest(Case):
+    """A gate that Python moves, to the end at once and in two parts: the same recording."""
+
+    def lift(self, endpoint):
+        with sluice.Participant(endpoint) as run:
+            self.starts.append(run.done)
+            run.drive({"gate": Function(run.scene.body[0], lambda t: (-0.5 * t * t, -8 * t * t))})
+
+    def bits(self, name):
+        with h5py.File(self.directory / name) as file:
+            names = ("frames/step", "frames/hash", "frames/checksum", "exchange/step", "exchange/checksum")
+            return [file[dataset][:].tolist() for dataset in names]
+
+    def test_is_the_run_that_never_stopped(self):
+        self.starts = []
+        sluice.run(self.scene, self.directory / "whole.h5", until=0.2, threads=1, motion=self.lift)
+        sluice.run(self.scene, self.directory / "part.h5", until=0.1, threads=1, motion=self.lift)
+        told = []
+        checkpoint = self.directory / "part.checkpoint"
+        sluice.resume(checkpoint, until=0.2, threads=2, motion=self.lift, show=told.append)
+        self.assertEqual(self.bits("part.h5"), self.bits("whole.h5"))
+        self.assertEqual(self.starts[:2], [0, 0])
+        self.assertGreater(self.starts[2], 0)
+        self.assertEqual(told[-1], 1.0)
+
+    def test_into_another_recording_and_by_the_programs_own_motion(self):
+        sluice.run(self.scene, self.directory / "part.h5", until=0.1, threads=1)
+        before = self.bits("part.h5")
+        summary = sluice.resume(self.directory / "part.checkpoint", output=self.directory / "more.h5", until=0.15)
+        self.assertEqual(summary["status"], "FINISHED")
+        self.assertEqual(self.bits("part.h5"), before)
+        self.assertGreater(len(self.bits("more.h5")[0]), len(before[0]))
+
+    def test_what_is_not_there_is_named(self):
+        with self.assertRaisesRegex(sluice.RunError, "absent.h5 is not there"):
+            sluice.resume(self.directory / "absent.checkpoint", motion=self.lift)
 
 
 class LedgerTest(Case):

@@ -203,7 +203,7 @@ TEST(Selection, LeavesFillValuesInEmptySlots) {
   read("/particles/fluid/id/value", H5T_NATIVE_INT64, ids, {5, 90});
   read("/particles/fluid/velocity/value", H5T_NATIVE_FLOAT, velocity, {5, 90, 3});
   read("/particles/fluid/id/time", H5T_NATIVE_DOUBLE, times, {5});
-  EXPECT_THAT(times, testing::Pointwise(testing::DoubleEq(), {0, 0.05, 0.1, 0.15, 0.2}));
+  for (std::size_t k = 0; k < times.size(); ++k) EXPECT_DOUBLE_EQ(times[k], 0.05 * static_cast<double>(k));
   EXPECT_EQ(H5Lexists(file, "/particles/fluid/density", H5P_DEFAULT), 0);
   H5Fclose(file);
   EXPECT_EQ(ids[2 * 90 + 74], 3 * 74 + 10);
@@ -215,7 +215,7 @@ TEST(Selection, LeavesFillValuesInEmptySlots) {
 TEST(Selection, TheSizeEstimateFollowsIt) {
   const TemporaryDirectory directory;
   const FakeRun some{
-      .particles = 4000, .steps_per_frame = 5, .frames = 60, .output = output({PRESSURE}, FLOAT32, 3, false)};
+      .particles = 20'000, .steps_per_frame = 5, .frames = 60, .output = output({PRESSURE}, FLOAT32, 3, false)};
   record(some, directory / "run.h5");
   const Welcome welcome = some.welcome().header.welcome();
   const auto expected =
