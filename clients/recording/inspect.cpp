@@ -135,6 +135,10 @@ std::string probe_text(const Json& probe) {
                        vector_text(probe["velocity"]), probe["wetness"].get<double>());
   if (probe.contains("force"))
     return fmt::format("{} N, {} N m", vector_text(probe["force"]), vector_text(probe["moment"]));
+  if (probe.contains("rate"))
+    return fmt::format("{:.6g} kg/s into the tank; {:.6g} kg came in, {:.6g} kg left",
+                       probe["rate"].get<double>(), probe["mass_in"].get<double>(),
+                       probe["mass_out"].get<double>());
   return probe["height"].is_null() ? "no liquid" : fmt::format("{:.6g} m", probe["height"].get<double>());
 }
 

@@ -11,7 +11,7 @@ namespace {
 // Of the scene [m], and when the flow has become steady [s].
 constexpr double kOpening = 0.1, kDepth = 0.5, kGate = 1.5, kSteady = 2;
 // Where the depths are measured: halfway to the gate, and behind it where the jet is as thin as it gets [m].
-constexpr double kInFront[2] = {0.5, 1.0}, kBehind[2] = {kGate + 2 * kOpening, kGate + 5 * kOpening};
+constexpr double kInFront[2] = {0.5, 1.0}, kBehind[2] = {kGate + 2 * kOpening, kGate + 4 * kOpening};
 
 // Mean depth [m] of the liquid between two places.
 double depth_between(const fluid::Snapshot& state, double particle_mass, const double (&range)[2]) {
