@@ -51,7 +51,7 @@ TEST(Openings, WrongOnesAreReportedWithTheirPlace) {
         Wrong{"name: 'a' side: X_MIN inflow { speed: '1' level: '0.3' pressure: '0' }",
               "opening[0].inflow.level: is given with a pressure, which it sets; leave one out"},
         Wrong{"name: 'a' side: X_MIN inflow { speed: '2*q' }",
-              "opening[0].inflow.speed: formula '2*q', position 4, token 'q'"},
+              "opening[0].inflow.speed: formula '2*q', position 3, token 'q'"},
         Wrong{"name: 'a' side: X_MIN inflow { speed: '1/t' }",
               "formula '1/t' is inf at (0, 0, 0) m, t = 0 s; it must be finite"},
         Wrong{"name: 'a' side: X_MIN min: 0.2 inflow { level: '0.1' }",
