@@ -54,6 +54,7 @@ class MirrorGuard {
     double sum = 0;
     for (const Plane<Dim>& plane : planes_)
       for (std::size_t i = 0; i < fluid.size(); ++i) {
+        if (fluid.is_buffer(i)) continue;
         const double stretch = std::max(0.0, range_ - plane.distance(fluid.node[i].x));
         sum += 0.5 * stiffness_ * stretch * stretch;
       }

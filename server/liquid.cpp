@@ -45,7 +45,9 @@ class Filling {
 
   fluid::FluidParticles run() {
     for (int r = 0; r < scene_.fluid_size(); ++r) add_region(r);
-    if (liquid_.position.empty())
+    const bool is_fed = std::any_of(scene_.opening().begin(), scene_.opening().end(),
+                                    [](const Opening& opening) { return opening.has_inflow(); });
+    if (liquid_.position.empty() && !is_fed)
       throw SceneError("fluid", "no liquid is left; give at least one region a larger shape");
     liquid_.volume = fluid::particle_volume(scene_.spacing(), dimension_);
     return std::move(liquid_);
