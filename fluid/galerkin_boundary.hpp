@@ -95,6 +95,7 @@ template <int Dim, typename Kernel>
 Wrench GalerkinSolver<Dim, Kernel>::wrench_on_sides() const {
   Wrench sum;
   for (std::size_t i = 0; i < fluid_.size(); ++i) {
+    if (fluid_.is_buffer(i)) continue;
     const Eigen::Vector3d force =
         widen<Dim>(Vec<Dim>(fluid_.mass[i] * (model_.gravity - fluid_.acceleration[i])));
     sum.force += force;
@@ -124,6 +125,7 @@ bool GalerkinSolver<Dim, Kernel>::is_measured(std::size_t w) const {
   if (body > 0) return body <= bodies_.size();
   if (!measure_wall_force_ || search_.halo().has_mirrors()) return false;
   const Vec<Dim>& x = boundary_.node()[w].x;
+  if (!openings_.is_inside(x)) return false;
   for (int a = 0; a < Dim; ++a)
     if (period_.length[a] > 0.0 && (x[a] < period_.lower[a] || x[a] >= period_.lower[a] + period_.length[a]))
       return false;

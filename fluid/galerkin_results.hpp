@@ -2,20 +2,42 @@
 
 // What GalerkinSolver tells of its state.
 
+#include <algorithm>
+
 #include "fluid/force_parts.hpp"
 #include "fluid/galerkin_solver.hpp"
 
 namespace sluice::fluid {
 
+// The particles in the tank, by rising number.
+template <int Dim, typename Kernel>
+std::vector<std::uint32_t> GalerkinSolver<Dim, Kernel>::by_number() const {
+  std::vector<std::uint32_t> order;
+  if (!openings_.is_used()) {
+    order.resize(fluid_.size());
+    for (std::uint32_t k = 0; k < order.size(); ++k) order[fluid_.id[k]] = k;
+    return order;
+  }
+  for (std::uint32_t k = 0; k < fluid_.size(); ++k)
+    if (!fluid_.is_buffer(k)) order.push_back(k);
+  std::sort(order.begin(), order.end(),
+            [this](std::uint32_t a, std::uint32_t b) { return fluid_.id[a] < fluid_.id[b]; });
+  return order;
+}
+
 template <int Dim, typename Kernel>
 Snapshot GalerkinSolver<Dim, Kernel>::snapshot() const {
   Snapshot s;
-  s.position.resize(3 * fluid_.size());
-  s.velocity.resize(3 * fluid_.size());
-  s.density.resize(fluid_.size());
-  s.pressure.resize(fluid_.size());
-  for (std::size_t k = 0; k < fluid_.size(); ++k) {
-    const std::size_t i = fluid_.id[k];
+  const std::vector<std::uint32_t> order = by_number();
+  const std::size_t n = order.size();
+  s.position.resize(3 * n);
+  s.velocity.resize(3 * n);
+  s.density.resize(n);
+  s.pressure.resize(n);
+  s.id.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t k = order[i];
+    s.id[i] = fluid_.id[k];
     Eigen::Map<Eigen::Vector3d>(&s.position[3 * i]) = widen<Dim>(fluid_.node[k].x);
     Eigen::Map<Eigen::Vector3d>(&s.velocity[3 * i]) = widen<Dim>(fluid_.node[k].v);
     s.density[i] = fluid_.node[k].rho;
@@ -28,6 +50,8 @@ template <int Dim, typename Kernel>
 Diagnostics GalerkinSolver<Dim, Kernel>::diagnostics() const {
   Diagnostics d;
   for (std::size_t i = 0; i < fluid_.size(); ++i) {
+    if (fluid_.is_buffer(i)) continue;
+    d.mass += fluid_.mass[i];
     const Node<Dim>& node = fluid_.node[i];
     const Eigen::Vector3d momentum = fluid_.mass[i] * widen<Dim>(node.v);
     d.kinetic += 0.5 * fluid_.mass[i] * node.v.squaredNorm();
@@ -39,7 +63,8 @@ Diagnostics GalerkinSolver<Dim, Kernel>::diagnostics() const {
     d.max_compression = larger(d.max_compression, std::abs(node.rho / model_.eos.rest_density() - 1.0));
   }
   d.elastic += stored_in_guard();
-  d.boundary_work = boundary_work_;
+  d.boundary_work = boundary_work_ + openings_.work();
+  if (openings_.is_used()) d.openings = openings_.passages(fluid_);
   return d;
 }
 
@@ -86,7 +111,8 @@ template <int Dim, typename Kernel>
 double GalerkinSolver<Dim, Kernel>::stored_in_guard() const {
   double energy = 0;
   for_boundary_pairs([&](std::size_t i, std::size_t w) {
-    if (i < fluid_.size()) energy += guard_energy<Dim>(model_, fluid_.node[i].x - boundary_.node()[w].x);
+    if (i < fluid_.size() && !fluid_.is_buffer(i))
+      energy += guard_energy<Dim>(model_, fluid_.node[i].x - boundary_.node()[w].x);
   });
   return energy + mirror_guard_.energy(fluid_);
 }

@@ -13,6 +13,7 @@
 #include "fluid/mirror_guard.hpp"
 #include "fluid/model.hpp"
 #include "fluid/neighbor_search.hpp"
+#include "fluid/openings.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/particles.hpp"
 #include "fluid/shifting.hpp"
@@ -65,6 +66,8 @@ class GalerkinSolver final : public Solver {
   void kick(double dt);
   void drift(double dt);
   void move_boundary(double dt, std::span<const Kinematics> bodies);
+  void find_neighbors();
+  void hold_openings(double dt);
   void mirror_velocities();
   void compute_gradients();
   void advance_density(double dt);
@@ -78,7 +81,7 @@ class GalerkinSolver final : public Solver {
   // All that a step changes but the neighbour search.
   auto state() {
     return std::tie(coefficients_, fluid_, boundary_, surface_, shifting_, bodies_, lagged_, reaction_,
-                    wrench_, last_wrench_, history_, interpolated_, boundary_work_);
+                    wrench_, last_wrench_, history_, interpolated_, boundary_work_, openings_);
   }
 
   [[nodiscard]] GroupStages<Dim> group_stages() const requires kHasGroups {
@@ -97,6 +100,7 @@ class GalerkinSolver final : public Solver {
   [[nodiscard]] Vec<Dim> further_force(std::size_t i) const;
   [[nodiscard]] double inertia(std::size_t i) const;
 
+  [[nodiscard]] std::vector<std::uint32_t> by_number() const;
   [[nodiscard]] double stored_in_guard() const;
   template <typename Visit>
   void for_boundary_pairs(const Visit& visit) const;
@@ -112,6 +116,7 @@ class GalerkinSolver final : public Solver {
   BodyImages images_;
   BoundaryParticles<Dim> boundary_;
   NeighborSearch<Dim> search_;
+  Openings<Dim> openings_;
   bool by_groups_;
   Period period_;
   MirrorGuard<Dim> mirror_guard_;
@@ -138,7 +143,7 @@ class GalerkinSolver final : public Solver {
   Checkpoint<std::vector<typename Operator<Dim, Kernel>::Coefficients>, Particles<Dim>,
              BoundaryParticles<Dim>, FreeSurface<Dim>, Shifting<Dim>, std::vector<Kinematics>,
              std::vector<LaggedAcceleration>, std::vector<Reaction<Dim>>, std::vector<Wrench>,
-             std::vector<Wrench>, History<Dim>, std::vector<Vec<Dim>>, double>
+             std::vector<Wrench>, History<Dim>, std::vector<Vec<Dim>>, double, Openings<Dim>>
       saved_;
   Checkpoint<NeighborSearch<Dim>> saved_search_;
   std::uint64_t saved_rebuilds_ = 0;

@@ -96,6 +96,7 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       boundary_(setup, images_.with_images(setup.bodies)),
       search_(model_.kernel.support() + model_.extra_reach, stages::kSkin * model_.kernel.support(),
               setup.period, stages::search_plan<Dim, Kernel>(setup), setup.mirrors),
+      openings_(setup, model_.kernel.support() + model_.extra_reach, stages::kSkin * model_.kernel.support()),
       by_groups_(stages::goes_by_groups<Dim, Kernel>(setup.formulation)),
       period_(setup.period),
       mirror_guard_(setup.mirrors, model_),
@@ -121,7 +122,11 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::start(std::span<const Kinematics> bodies) {
   move_boundary(0.0, bodies);
-  search_.update(fluid_, boundary_, parallel_);
+  openings_.fill(fluid_);
+  find_neighbors();
+  openings_.impose_velocity(0.0, fluid_, parallel_);
+  openings_.impose_density(fluid_, parallel_);
+  search_.halo().refresh_nodes(fluid_);
   mirror_velocities();
   // The boundary's density enters the gradients and needs the fluid's pressure: one sweep to fill it.
   compute_gradients();
@@ -132,6 +137,7 @@ void GalerkinSolver<Dim, Kernel>::start(std::span<const Kinematics> bodies) {
   search_.halo().refresh_nodes(fluid_);
   compute_gradients();
   evaluate();
+  hold_openings(0.0);
   start_history();
 }
 
@@ -164,7 +170,9 @@ void GalerkinSolver<Dim, Kernel>::kick_drift_kick(double dt, std::span<const Kin
   move(dt, bodies);
   compute_gradients();
   advance_density(dt);
+  openings_.impose_density(fluid_, parallel_);
   evaluate();
+  hold_openings(dt);
   kick(0.5 * dt);
 }
 
@@ -178,9 +186,39 @@ void GalerkinSolver<Dim, Kernel>::move(double dt, std::span<const Kinematics> bo
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::place(double dt, std::span<const Kinematics> bodies) {
   move_boundary(dt, bodies);
-  search_.update(fluid_, boundary_, parallel_);
+  openings_.advance(dt);
+  find_neighbors();
+  openings_.impose_velocity(dt, fluid_, parallel_);
   search_.halo().refresh_nodes(fluid_);
   mirror_velocities();
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::find_neighbors() {
+  if (!search_.is_stale(fluid_, boundary_, parallel_)) return;
+  openings_.exchange(fluid_);
+  search_.rebuild(fluid_, boundary_, parallel_);
+  if (openings_.is_used()) openings_.list(fluid_);
+}
+
+// Buffers move as they are told; what they do to the fluid is counted. Of the energy of the fluid i they
+// change
+//   sum_ib V_b W (s_i + S_i x_bi) . v_b - V_i W (s_b + S_b x_ib) . v_i
+// since in sum_i f_i . v_i and in the stress power of all particles the same terms stand (force_sweep.hpp).
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::hold_openings(double dt) {
+  if (!openings_.is_used()) return;
+  using Rule = Operator<Dim, Kernel>;
+  double power = 0;
+  openings_.for_pairs([&](std::size_t b, std::size_t i) {
+    const Node<Dim>&buffer = fluid_.node[b], &node = fluid_.node[i];
+    const Vec<Dim> x_bi = buffer.x - node.x;
+    const ValueAndSlope weight = model_.kernel.value_and_slope(x_bi);
+    power += buffer.volume * Rule::flux(fluid_, i, weight, x_bi).dot(buffer.v) -
+             node.volume * Rule::flux(fluid_, b, weight, -x_bi).dot(node.v);
+  });
+  openings_.stop_acceleration(fluid_, parallel_);
+  openings_.count_work(dt, power);
 }
 
 template <int Dim, typename Kernel>
@@ -243,21 +281,30 @@ void GalerkinSolver<Dim, Kernel>::compute_single_gradients() {
   });
 }
 
-// Films between surfaces count as spray (wedged.hpp).
+// Fluid that is caught between two surfaces, or was pressed through one, counts as spray and carries no
+// pressure at all (wedged.hpp): it would be that of one particle between stiff walls, whose forces do not
+// match the work done on it. With it, heavy bodies that come down on a floor bring several times their energy
+// in.
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::find_films() {
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
     thread_local std::vector<std::uint32_t> buffer;
     const auto near =
         by_groups_ ? search_.groups().boundary_near_particle(i, buffer) : search_.boundary_near_fluid(i);
-    if (!near.empty() && is_wedged<Dim>(model_, fluid_.node[i].x, near, boundary_))
-      fluid_.fit[i].floored = true;
+    const Vec<Dim>& x = fluid_.node[i].x;
+    if (near.empty() || !(is_wedged<Dim>(model_, x, near, boundary_, mirror_guard_.planes()) ||
+                          is_inside_boundary<Dim>(x, near, boundary_)))
+      return;
+    fluid_.fit[i].floored = true;
+    fluid_.node[i].rho = model_.eos.rest_density();
+    fluid_.divergence[i] = fluid_.density_rate[i] = 0.0;
   });
 }
 
 // CF (70) with the divergence at the new positions, and the density diffusion of the last sweep 2. A particle
 // with too few neighbours for a fit is spray: it carries no tension, and its pressure falls to the ambient
-// one in the time that sound takes across it, since its own divergence hardly feels it.
+// one in the time that sound takes across it, since its own divergence hardly feels it. Nor is there tension
+// between a particle and a mirror (mirror_guard.hpp).
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::advance_density(double dt) {
   const double rho0 = model_.eos.rest_density();
@@ -265,6 +312,7 @@ void GalerkinSolver<Dim, Kernel>::advance_density(double dt) {
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
     double& rho = fluid_.node[i].rho;
     rho += dt * (fluid_.density_rate[i] - rho * fluid_.divergence[i]);
+    if (rho < rho0 && mirror_guard_.is_film(fluid_.node[i].x)) rho = rho0;
     if (fluid_.fit[i].floored) rho = rho0 + std::max(0.0, rho - rho0) / (1.0 + dt / acoustic_time);
   });
 }

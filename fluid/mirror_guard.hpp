@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "fluid/boundary.hpp"
@@ -19,7 +20,9 @@ class MirrorGuard {
  public:
   template <typename Kernel>
   MirrorGuard(const Mirrors& mirrors, const Model<Dim, Kernel>& model)
-      : range_(model.guard_range - 0.5 * model.spacing), stiffness_(model.guard_stiffness) {
+      : range_(model.guard_range - 0.5 * model.spacing),
+        film_(0.4 * model.spacing),
+        stiffness_(model.guard_stiffness) {
     for (int a = 0; a < Dim; ++a) {
       const auto side = static_cast<std::size_t>(2 * a);
       if (mirrors.at[side]) planes_.push_back({Vec<Dim>::Unit(a), mirrors.lower[a]});
@@ -35,11 +38,23 @@ class MirrorGuard {
       });
   }
 
+  // The sides, the fluid in front of them.
+  [[nodiscard]] std::span<const Plane<Dim>> planes() const { return planes_; }
+
+  // Whether a particle is nearer to a side than the row along it has room for. A wall does not hold fluid
+  // back, and so nearly on top of its own image a film under tension pulls and pushes itself at the pace of
+  // the steps: at twice their limit, it threw particles out at ten times the speed of the flow.
+  [[nodiscard]] bool is_film(const Vec<Dim>& x) const {
+    return std::any_of(planes_.begin(), planes_.end(),
+                       [&](const Plane<Dim>& plane) { return plane.distance(x) < film_; });
+  }
+
   // Energy [J] stored in the springs.
   [[nodiscard]] double energy(const Particles<Dim>& fluid) const {
     double sum = 0;
     for (const Plane<Dim>& plane : planes_)
       for (std::size_t i = 0; i < fluid.size(); ++i) {
+        if (fluid.is_buffer(i)) continue;
         const double stretch = std::max(0.0, range_ - plane.distance(fluid.node[i].x));
         sum += 0.5 * stiffness_ * stretch * stretch;
       }
@@ -48,7 +63,7 @@ class MirrorGuard {
 
  private:
   std::vector<Plane<Dim>> planes_;
-  double range_, stiffness_;  // [m], [N/m]
+  double range_, film_, stiffness_;  // [m], [m], [N/m]
 };
 
 }  // namespace sluice::fluid

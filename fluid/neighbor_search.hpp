@@ -53,8 +53,12 @@ class NeighborSearch {
   // Neighbours may be images; what they are given is refreshed here.
   [[nodiscard]] const Halo<Dim>& halo() const { return halo_; }
 
-  // Rebuilds the lists if motion demands, after sorting the fluid particles by cell. Cost of the check: one
-  // pass over the particles.
+  // Whether motion demands a rebuild of the lists. Cost: one pass over the particles.
+  [[nodiscard]] bool is_stale(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
+                              const Parallel& parallel) const;
+  // Sorts the fluid particles by cell and makes the lists.
+  void rebuild(Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary, const Parallel& parallel);
+  // The one if the other.
   void update(Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary, const Parallel& parallel);
 
   // Other fluid particles near a fluid particle.
@@ -81,9 +85,6 @@ class NeighborSearch {
   }
 
  private:
-  [[nodiscard]] bool is_stale(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
-                              const Parallel& parallel) const;
-  void rebuild(Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary, const Parallel& parallel);
   void list_singles(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
                     const SearchGrids<Dim>& grids, const Visibility<Dim>& visibility,
                     const Parallel& parallel);

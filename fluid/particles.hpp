@@ -52,7 +52,9 @@ struct Particles {
   std::vector<Node<Dim>> node;         // position, velocity, volume, density
   std::vector<Vec<Dim>> acceleration;  // [m/s^2]
   std::vector<double> density_rate;    // by density diffusion [kg/(m^3 s)]
-  std::vector<std::uint32_t> id;       // index in Setup::fluid
+  std::vector<std::uint32_t> id;       // index in Setup::fluid; rising numbers for what came in later
+  // Of the buffer behind an opening, its number + 1, else 0; empty without openings (openings.hpp).
+  std::vector<std::uint8_t> opening;
   // Of the present step:
   std::vector<double> pressure;    // [Pa]
   std::vector<double> divergence;  // of the velocity [1/s]
@@ -66,11 +68,12 @@ struct Particles {
   std::vector<PointSource<Dim>> point_source;
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
+  [[nodiscard]] bool is_buffer(std::size_t i) const { return !opening.empty() && opening[i] != 0; }
 
   // What a run changes, here as in all that has it: state_bytes.hpp.
   auto state() {
-    return std::tie(mass, node, acceleration, density_rate, id, pressure, divergence, L, stress, fit, source,
-                    slope_source, point_source);
+    return std::tie(mass, node, acceleration, density_rate, id, opening, pressure, divergence, L, stress, fit,
+                    source, slope_source, point_source);
   }
 };
 

@@ -26,6 +26,7 @@ struct Tank {
   std::array<bool, 6> mirrored{};  // these sides have no layers: the fluid sees its image there
   std::array<Eigen::Vector3d, 6> velocity = zeros();  // of a wall along itself, a conveyor belt [m/s]
   bool no_slip = false;
+  std::vector<Opening> openings = {};  // where there is no wall; the other walls go on beyond
 
   static std::array<Eigen::Vector3d, 6> zeros();
 };

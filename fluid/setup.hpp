@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace sluice::fluid {
@@ -106,6 +107,20 @@ struct Mirrors {
   std::array<bool, 6> at{};
 };
 
+// A rectangle in a side of the tank through which liquid comes in or leaves (openings.hpp). What is not given
+// there is taken over from the flow.
+struct Opening {
+  int side = 0;                                   // of axis a number 2 a (lower) and 2 a + 1 (upper)
+  Eigen::Vector3d min = Eigen::Vector3d::Zero();  // its corners [m], in the plane of the side
+  Eigen::Vector3d max = Eigen::Vector3d::Zero();
+  bool inflow = true;  // else what leaves does not come back
+  // Of time [s] and place. Into the tank [m/s], at an inflow; the pressure [Pa].
+  std::function<double(double, const Eigen::Vector3d&)> speed, pressure;
+  // Of time [s]: where the liquid's surface stands, measured against gravity from the origin [m]. Sets a
+  // hydrostatic pressure, and an inflow is dry above.
+  std::function<double(double)> level;
+};
+
 struct Setup {
   int dimension = 2;
   double spacing = 0;  // dx [m]
@@ -118,6 +133,7 @@ struct Setup {
   Boundary walls;                   // at rest, world frame
   bool measure_wall_force = false;  // the walls' wrench costs a sweep over wall particles near the fluid
   std::vector<Boundary> bodies;
+  std::vector<Opening> openings;
   bool limit_step_by_bodies = true;  // see body_step.hpp; not where the exchange with them is iterated
   int threads = 1;
 

@@ -59,7 +59,7 @@ void Shifting<Dim>::compute(const Model<Dim, Kernel>& model, const Particles<Dim
                             const FreeSurface<Dim>& surface, const Parallel& parallel) {
   velocity_.assign(fluid.size(), Vec<Dim>::Zero());
   parallel.for_each(fluid.size(), [&](std::size_t i) {
-    if (!surface.is_deep(i, search)) return;
+    if (fluid.is_buffer(i) || !surface.is_deep(i, search)) return;
     const auto neighbors = search.fluid_near_fluid(i);
     const Vec<Dim>& x = fluid.node[i].x;
     const Vec<Dim> crowding =

@@ -1,5 +1,6 @@
 #include "fluid/solver.hpp"
 
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,45 @@ void require(bool condition, const std::string& name, double value, const char* 
   std::ostringstream text;
   text << "fluid setup: " << name << " is " << value << "; " << allowed;
   throw std::invalid_argument(text.str());
+}
+
+void check_opening(const Setup& setup, const Opening& opening) {
+  const auto side = static_cast<std::size_t>(opening.side);
+  require(opening.side >= 0 && opening.side < 2 * setup.dimension, "side of an opening", opening.side,
+          "of axis a it is 2 a (lower) or 2 a + 1 (upper)");
+  require(setup.period.length[opening.side / 2] == 0 && !setup.mirrors.at[side], "side of an opening",
+          opening.side, "it must neither be periodic nor a mirror");
+  for (int a = 0; a < setup.dimension; ++a)
+    require(a == opening.side / 2 || opening.max[a] - opening.min[a] >= setup.spacing,
+            "size of an opening [m]", opening.max[a] - opening.min[a], "at least a spacing is needed");
+  require(opening.inflow ? opening.speed || opening.level : !opening.speed, "speed given at an opening",
+          opening.speed ? 1 : 0, "an inflow needs a speed or a level, an outflow takes that of the flow");
+  require(!opening.pressure || !opening.level, "pressure and level given at an opening", 2,
+          "it can have one of them");
+  require(!opening.pressure || !opening.inflow || opening.speed, "speed given at an opening", 0,
+          "an inflow of given pressure needs one");
+  if (!opening.level) return;
+  const double g = setup.gravity.norm();
+  require(g > 0, "gravity [m/s^2]", g, "an opening of given level needs some");
+  const double top = -setup.gravity.dot(opening.max) / g, bottom = -setup.gravity.dot(opening.min) / g;
+  require(!opening.inflow || opening.level(0) > std::min(top, bottom), "level at an inflow [m]",
+          opening.level(0), "it must be above the lower edge of the opening");
+  require(!opening.inflow || opening.speed || opening.level(0) < std::max(top, bottom),
+          "level at an inflow [m]", opening.level(0),
+          "it must be below the upper edge of the opening where no speed is given");
+}
+
+void check_openings(const Setup& setup) {
+  if (setup.openings.empty()) return;
+  const Formulation& f = setup.formulation;
+  require(setup.openings.size() < 256, "number of openings", static_cast<double>(setup.openings.size()),
+          "at most 255 are built");
+  require(f.integrator == Integrator::kick_drift_kick && f.quadrature == Quadrature::nodal &&
+              f.interpolated_motion == 0,
+          "integrator", static_cast<double>(f.integrator),
+          "openings go with kick - drift - kick, 0, nodal quadrature and particles that move with their own "
+          "velocity");
+  for (const Opening& opening : setup.openings) check_opening(setup, opening);
 }
 
 void check(const Setup& setup) {
@@ -58,10 +98,14 @@ void check(const Setup& setup) {
   require(f.isobaric_scale > 0, "isobaric_scale", f.isobaric_scale, "it must be positive");
   require(f.moment_floor > 0 && f.moment_floor < 1, "moment_floor", f.moment_floor, "it must be in (0, 1)");
   const std::size_t n = setup.fluid.position.size();
-  require(n > 0, "number of fluid particles", 0, "a run needs some: is a region smaller than the spacing?");
+  const bool is_fed = std::any_of(setup.openings.begin(), setup.openings.end(),
+                                  [](const Opening& opening) { return opening.inflow; });
+  require(n > 0 || is_fed, "number of fluid particles", 0,
+          "a run needs some: is a region smaller than the spacing?");
   require(setup.fluid.velocity.size() == n && setup.fluid.pressure.size() == n, "fluid particles",
           static_cast<double>(n), "velocity and pressure must be given for each");
   require(setup.fluid.volume > 0, "particle volume [m^Dim]", setup.fluid.volume, "it must be positive");
+  check_openings(setup);
 }
 
 template <template <int> typename Kernel>

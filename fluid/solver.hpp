@@ -10,24 +10,36 @@
 
 namespace sluice::fluid {
 
-// Copy of the state in the order of FluidParticles, whatever the solver's own order is.
+// Copy of the state of the particles in the tank by rising number, whatever the solver's own order is: the
+// order of FluidParticles, then what came in through openings. Numbers are not used again.
 struct Snapshot {
-  std::vector<double> position;  // [n, 3]
-  std::vector<double> velocity;  // [n, 3]
-  std::vector<double> density;   // [n]
-  std::vector<double> pressure;  // [n]
+  std::vector<double> position;   // [n, 3]
+  std::vector<double> velocity;   // [n, 3]
+  std::vector<double> density;    // [n]
+  std::vector<double> pressure;   // [n]
+  std::vector<std::uint32_t> id;  // [n] number; 0 to n - 1 without openings
+};
+
+// What goes through an opening, per metre of depth in 2D.
+struct Passage {
+  double mass_in = 0, mass_out = 0;  // since the start [kg]
+  double rate = 0;                   // of what is behind the opening, into the tank [kg/s]
 };
 
 // Sums over the fluid particles; per metre of depth in 2D.
 struct Diagnostics {
-  double kinetic = 0;        // [J]
-  double potential = 0;      // - sum m g.x [J]
-  double elastic = 0;        // work stored in compression [J]
-  double boundary_work = 0;  // done on the fluid by moving boundaries since the start [J]
+  double kinetic = 0;    // [J]
+  double potential = 0;  // - sum m g.x [J]
+  double elastic = 0;    // work stored in compression [J]
+  // Done on the fluid by moving boundaries, and brought in less taken out through openings, since the start
+  // [J]
+  double boundary_work = 0;
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();          // [kg m/s]
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  // about the origin [kg m^2/s]
   double max_speed = 0;                                        // [m/s]
   double max_compression = 0;                                  // max |rho/rho0 - 1|
+  double mass = 0;                                             // [kg]
+  std::vector<Passage> openings;                               // as in Setup
 };
 
 // One liquid, walls and moving bodies, stepped explicitly. Holds no global state.

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "fluid/sampling.hpp"
 
@@ -35,12 +37,59 @@ Axis divide(double min, double max, const Layers& below, const Layers& above, do
 
 const Axis kFlat{{0.0}, {1.0}, {0}};  // the third axis of a plane
 
+bool has_opening(const Tank& tank, int side) {
+  return std::any_of(tank.openings.begin(), tank.openings.end(),
+                     [side](const Opening& opening) { return opening.side == side; });
+}
+
 Layers layers_of(const Tank& tank, std::size_t side, double spacing, double support) {
   const int depth = layer_count(support, spacing);
+  if (has_opening(tank, static_cast<int>(side))) return {2 * depth, false};
   // Beyond a side with images walls are needed as far as fluid inside may see them, neighbour lists' skin
   // included.
   if (tank.periodic[side / 2] || tank.mirrored[side]) return {2 * depth, true};
   return {tank.closed[side] ? depth : 0, false};
+}
+
+// From x beyond `side` to the nearest channel behind an opening there: in its plane; nothing without
+// openings.
+std::optional<Eigen::Vector3d> way_to_channel(const Tank& tank, int side, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d in_tank = x.cwiseMax(tank.min).cwiseMin(tank.max);
+  std::optional<Eigen::Vector3d> nearest;
+  for (const Opening& opening : tank.openings) {
+    if (opening.side != side) continue;
+    Eigen::Vector3d way = in_tank.cwiseMax(opening.min).cwiseMin(opening.max) - in_tank;
+    way[side / 2] = 0.0;
+    if (!nearest || way.squaredNorm() < nearest->squaredNorm()) nearest = way;
+  }
+  return nearest;
+}
+
+// A point counts for the channel's wall rather than for the side if the channel is nearer than this times the
+// side: else what passes the lip of a nozzle is held back by the side's first particles there.
+constexpr double kLip = 1.5;
+
+// The way from x [m] to the surface of the wall; nothing where there is no wall. `beyond` says of every axis
+// on which side of the tank x is, -1, 0 or 1. Behind an opening the tank goes on as a channel, with walls
+// `depth` [m] thick.
+std::optional<Eigen::Vector3d> way_to_surface(const Tank& tank, const Eigen::Vector3d& x,
+                                              const std::array<int, 3>& beyond, double depth) {
+  const bool is_corner = std::count(beyond.begin(), beyond.end(), 0) < 2;
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();
+  for (int a = 0; a < 3; ++a) {
+    if (beyond[a] == 0) continue;
+    const int side = 2 * a + (beyond[a] < 0 ? 0 : 1);
+    const double to_side = (beyond[a] < 0 ? tank.min : tank.max)[a] - x[a];
+    const auto to_channel = way_to_channel(tank, side, x);
+    if (to_channel && to_channel->isZero(0)) continue;
+    if (!tank.closed[side]) return std::nullopt;
+    if (to_channel && !is_corner && to_channel->norm() < std::min(depth, kLip * std::abs(to_side)))
+      way += *to_channel;
+    else
+      way[a] = to_side;
+  }
+  if (way.isZero(0) || way.cwiseAbs().maxCoeff() > depth) return std::nullopt;
+  return way;
 }
 
 }  // namespace
@@ -64,14 +113,13 @@ Boundary sample_walls(const Tank& tank, double spacing, double support, int dime
         const std::array<int, 3> side{axis[0].side[a], axis[1].side[b], axis[2].side[c]};
         if (side == std::array<int, 3>{0, 0, 0}) continue;
         const Eigen::Vector3d x(axis[0].at[a], axis[1].at[b], axis[2].at[c]);
-        Eigen::Vector3d to_surface = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();
-        for (int k = 0; k < dimension; ++k) {
-          if (side[k] == 0) continue;
-          to_surface[k] = (side[k] < 0 ? tank.min[k] : tank.max[k]) - x[k];
-          velocity += tank.velocity[2 * k + (side[k] < 0 ? 0 : 1)];
-        }
+        const auto to_surface = way_to_surface(tank, x, side, layer_count(support, spacing) * spacing);
+        if (!to_surface) continue;
+        Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+        for (int k = 0; k < dimension; ++k)
+          if (side[k] != 0) velocity += tank.velocity[2 * k + (side[k] < 0 ? 0 : 1)];
         walls.position.push_back(x);
-        walls.to_surface.push_back(to_surface);
+        walls.to_surface.push_back(*to_surface);
         walls.velocity.push_back(velocity);
         walls.volume.push_back(axis[0].width[a] * axis[1].width[b] * axis[2].width[c]);
       }

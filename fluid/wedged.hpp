@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "fluid/boundary.hpp"
@@ -7,28 +8,40 @@
 
 namespace sluice::fluid {
 
-// Whether fluid at x is between two surfaces of different bodies, or of a body and a wall, that face each
-// other across less than about 1.6 spacings: a film that particles do not resolve. Its own pressure would be
-// that of one particle between two stiff walls, whose forces do not match the work done on it: with it, heavy
-// bodies that come down on a floor bring up to 12 % of energy in. Such a particle counts as spray.
+// Whether fluid at x is between two surfaces of different bodies, or of a body and a wall or mirrored side,
+// that face each other across less than about 1.6 spacings: a film that particles do not resolve.
 template <int Dim, typename Kernel>
 bool is_wedged(const Model<Dim, Kernel>& model, const Vec<Dim>& x, std::span<const std::uint32_t> neighbors,
-               const BoundaryParticles<Dim>& boundary) {
+               const BoundaryParticles<Dim>& boundary, std::span<const Plane<Dim>> mirrors) {
+  const double film = 1.6 * model.spacing;
   // Boundary particles stand half a spacing behind their surface.
-  const double reach = 1.3 * model.spacing;
-  const auto is_near = [&](std::uint32_t w) {
-    return (boundary.node()[w].x - x).squaredNorm() < reach * reach;
+  const auto distance = [&](std::uint32_t w) {
+    return (boundary.node()[w].x - x).norm() - 0.5 * model.spacing;
   };
   constexpr double kFacing = -0.3;  // cosine between the normals of surfaces that face each other
-  for (std::size_t a = 0; a < neighbors.size(); ++a) {
-    const std::uint32_t u = neighbors[a];
-    if (boundary.body(u) == 0 || !is_near(u)) continue;
+  for (const std::uint32_t u : neighbors) {
+    const double rest = film - distance(u);
+    if (boundary.body(u) == 0 || rest < 0.0) continue;
+    const Vec<Dim>& normal = boundary.surface(u).normal;
     for (const std::uint32_t w : neighbors)
-      if (boundary.body(w) != boundary.body(u) && is_near(w) &&
-          boundary.surface(u).normal.dot(boundary.surface(w).normal) < kFacing)
+      if (boundary.body(w) != boundary.body(u) && distance(w) < rest &&
+          normal.dot(boundary.surface(w).normal) < kFacing)
         return true;
+    for (const Plane<Dim>& mirror : mirrors)
+      if (mirror.distance(x) < rest && normal.dot(mirror.normal) < kFacing) return true;
   }
   return false;
+}
+
+// Whether fluid at x has been pressed through a surface: the ball around a boundary particle that reaches to
+// the surface is inside.
+template <int Dim>
+bool is_inside_boundary(const Vec<Dim>& x, std::span<const std::uint32_t> neighbors,
+                        const BoundaryParticles<Dim>& boundary) {
+  return std::any_of(neighbors.begin(), neighbors.end(), [&](std::uint32_t w) {
+    const double depth = boundary.surface(w).depth;
+    return (x - boundary.node()[w].x).squaredNorm() < depth * depth;
+  });
 }
 
 }  // namespace sluice::fluid

@@ -29,7 +29,7 @@ std::vector<ParticleArray> particle_arrays(const Scene& scene) {
 }
 
 bool particles_vary(const Scene& scene) {
-  return scene.output().has_region();
+  return scene.output().has_region() || scene.opening_size() > 0;
 }
 
 std::uint64_t particles_every(const Scene& scene) {

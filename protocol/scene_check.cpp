@@ -46,7 +46,9 @@ void check_liquid(const Liquid& liquid, FieldCheck& check) {
 }
 
 void check_regions(const Scene& scene, FieldCheck& check) {
-  if (scene.fluid().empty())
+  const bool is_fed = std::any_of(scene.opening().begin(), scene.opening().end(),
+                                  [](const Opening& opening) { return opening.has_inflow(); });
+  if (scene.fluid().empty() && !is_fed)
     check.report("fluid",
                  "is missing; give at least one region, e.g. fluid { box { min: [0, 0] max: [1, 0.5] } }");
   if (!check.count(scene.fluid_size(), kMostRegions, "fluid")) return;
@@ -89,6 +91,7 @@ std::vector<Problem> check_fields(const Scene& scene) {
   check_coupling(scene, check);
   if (scene.dimension() == 2 || scene.dimension() == 3) {
     check_domain(scene, check);
+    check_openings(scene, check);
     check_regions(scene, check);
     check_bodies(scene, check);
     check_joints(scene, check);

@@ -12,23 +12,12 @@ namespace {
 // Neighbours are looked for up to 2.3 h away, and their images as far again.
 constexpr double kPeriodInSmoothings = 4.6;
 
-bool is_side(Side side, const std::string& field, FieldCheck& check) {
-  if (!Side_IsValid(side) || side == SIDE_UNSPECIFIED)
-    check.report(field, fmt::format("{} is not a side; give X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN or Z_MAX",
-                                    static_cast<int>(side)));
-  else if (check.dimension() == 2 && side >= Z_MIN)
-    check.report(field, fmt::format("{} does not exist in two dimensions; remove it", Side_Name(side)));
-  else
-    return true;
-  return false;
-}
-
 void check_open_sides(const Domain& domain, FieldCheck& check) {
   std::set<int> seen;
   for (int i = 0; i < domain.open_size(); ++i) {
     const Side side = domain.open(i);
     const std::string field = fmt::format("domain.open[{}]", i);
-    if (is_side(side, field, check) && !seen.insert(side).second)
+    if (check_side(side, field, check) && !seen.insert(side).second)
       check.report(field, fmt::format("{} is given twice; remove one", Side_Name(side)));
   }
 }
@@ -75,7 +64,7 @@ void check_moving(const Domain& domain, FieldCheck& check) {
   for (int i = 0; i < domain.moving_size(); ++i) {
     const WallMotion& motion = domain.moving(i);
     const std::string field = fmt::format("domain.moving[{}]", i);
-    if (!is_side(motion.side(), field + ".side", check)) continue;
+    if (!check_side(motion.side(), field + ".side", check)) continue;
     if (!check.vector(motion.velocity(), field + ".velocity", "the wall's velocity")) continue;
     const int axis = (motion.side() - X_MIN) / 2;
     if (motion.velocity(axis) != 0)
@@ -88,6 +77,17 @@ void check_moving(const Domain& domain, FieldCheck& check) {
 }
 
 }  // namespace
+
+bool check_side(Side side, const std::string& field, FieldCheck& check) {
+  if (!Side_IsValid(side) || side == SIDE_UNSPECIFIED)
+    check.report(field, fmt::format("{} is not a side; give X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN or Z_MAX",
+                                    static_cast<int>(side)));
+  else if (check.dimension() == 2 && side >= Z_MIN)
+    check.report(field, fmt::format("{} does not exist in two dimensions; remove it", Side_Name(side)));
+  else
+    return true;
+  return false;
+}
 
 void check_domain(const Scene& scene, FieldCheck& check) {
   const Domain& domain = scene.domain();

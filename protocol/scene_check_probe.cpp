@@ -31,8 +31,16 @@ void check_kind(const Probe& probe, const Scene& scene, const std::string& field
     case Probe::kForce:
       check.optional_vector(probe.force().about(), field + ".force.about", "the point of the moment");
       return check_body(probe.force().body(), true, field + ".force.body", scene, check);
+    case Probe::kFlow: {
+      const std::string& name = probe.flow().opening();
+      const bool known = std::any_of(scene.opening().begin(), scene.opening().end(),
+                                     [&](const Opening& opening) { return opening.name() == name; });
+      if (!known)
+        check.report(field + ".flow.opening", fmt::format("there is no opening \"{}\"; name one", name));
+      return;
+    }
     case Probe::KIND_NOT_SET:
-      check.report(field, "has no kind; give point, surface or force");
+      check.report(field, "has no kind; give point, surface, force or flow");
   }
 }
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "protocol/field_check.hpp"
+#include "protocol/formula.hpp"
 #include "protocol/scene_check.hpp"
 
 namespace sluice::protocol {
@@ -50,6 +51,16 @@ double top(const FluidRegion& region, const Vector& up) {
   }
 }
 
+// At time 0, against gravity from the origin [m]; nothing where no level is given, or one that is an error.
+double level_of(const Inflow& inflow) {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  try {
+    return inflow.level().empty() ? kNone : Formula(inflow.level(), true).at({0, 0, 0});
+  } catch (const FormulaError&) {
+    return kNone;
+  }
+}
+
 // Height [m] of the highest liquid above the domain's lowest corner, against gravity.
 double liquid_height(const Scene& scene, double g) {
   Vector up = scene.gravity();
@@ -59,6 +70,8 @@ double liquid_height(const Scene& scene, double g) {
     floor += std::min(up[a] * at(scene.domain().min(), a), up[a] * at(scene.domain().max(), a));
   double highest = floor;
   for (const auto& region : scene.fluid()) highest = std::max(highest, top(region, up));
+  for (const auto& opening : scene.opening())
+    if (opening.has_inflow()) highest = std::max(highest, level_of(opening.inflow()));
   return highest - floor;
 }
 
@@ -79,6 +92,17 @@ void fill_liquid(Scene& scene) {
     liquid.set_max_speed(speed > 0 ? speed : liquid.sound_speed() / kMachInverse);
   }
   if (!liquid.has_sound_speed()) liquid.set_sound_speed(kMachInverse * liquid.max_speed());
+}
+
+void fill_opening(Opening& opening, const Domain& domain) {
+  const int axis = (opening.side() - X_MIN) / 2;
+  const auto fill = [axis](Vector& corner, const Vector& of_tank) {
+    if (corner.empty())
+      for (int a = 0; a < of_tank.size(); ++a)
+        if (a != axis) corner.Add(of_tank[a]);
+  };
+  fill(*opening.mutable_min(), domain.min());
+  fill(*opening.mutable_max(), domain.max());
 }
 
 void fill_body(Body& body, int dimension) {
@@ -146,6 +170,7 @@ Scene with_defaults(const Scene& scene) {
     if (!region.has_hydrostatic()) region.set_hydrostatic(region.pressure().empty());
   }
   fill_liquid(full);
+  for (auto& opening : *full.mutable_opening()) fill_opening(opening, full.domain());
   for (auto& body : *full.mutable_body()) fill_body(body, dimension);
   fill_output(*full.mutable_output(), full.duration());
   fill_formulation(*full.mutable_formulation(), full.dimension(), full.domain().periodic_size() > 0);

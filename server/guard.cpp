@@ -30,8 +30,8 @@ void Guard::check(const fluid::Snapshot& state, double time) const {
     const std::string reason = fault(state, i);
     if (reason.empty()) continue;
     const Eigen::Vector3d x = vector_of(state.position, i);
-    throw Stop(End::UNSTABLE, fmt::format("particle {} at ({:g}, {:g}, {:g}) m, t = {:g} s: {}", i, x.x(),
-                                          x.y(), x.z(), time, reason));
+    throw Stop(End::UNSTABLE, fmt::format("particle {} at ({:g}, {:g}, {:g}) m, t = {:g} s: {}", state.id[i],
+                                          x.x(), x.y(), x.z(), time, reason));
   }
 }
 

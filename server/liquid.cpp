@@ -20,7 +20,8 @@ constexpr double kMostParticles = 1e8;
 // A particle nearer than this to a surface, in spacings, is cut away by a body that displaces liquid: those
 // whose volume is there in the mean. ...
 constexpr double kCut = 0.0;
-// ... and an error at one that does not.
+// ... and an error at one that does not. Nearer than this the penetration guard (fluid/force_sweep.hpp) would
+// throw it off in the first step.
 constexpr double kTooNear = 0.25;
 
 std::string region_name(int index) {
@@ -44,7 +45,9 @@ class Filling {
 
   fluid::FluidParticles run() {
     for (int r = 0; r < scene_.fluid_size(); ++r) add_region(r);
-    if (liquid_.position.empty())
+    const bool is_fed = std::any_of(scene_.opening().begin(), scene_.opening().end(),
+                                    [](const Opening& opening) { return opening.has_inflow(); });
+    if (liquid_.position.empty() && !is_fed)
       throw SceneError("fluid", "no liquid is left; give at least one region a larger shape");
     liquid_.volume = fluid::particle_volume(scene_.spacing(), dimension_);
     return std::move(liquid_);
@@ -63,6 +66,7 @@ class Filling {
     check_inside_tank(r, particles);
     cut_bodies(particles);
     pack(r, particles);
+    clear_surfaces(particles);
 
     for (const auto& [position, origin] : particles) {
       liquid_.position.push_back(position);
@@ -83,15 +87,20 @@ class Filling {
     }
   }
 
-  void check_inside_tank(int r, const std::vector<Particle>& particles) const {
+  bool is_inside_tank(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d min = to_vector(scene_.domain().min()), max = to_vector(scene_.domain().max());
+    for (int a = 0; a < dimension_; ++a)
+      if (!(x[a] > min[a] && x[a] < max[a])) return false;
+    return true;
+  }
+
+  void check_inside_tank(int r, const std::vector<Particle>& particles) const {
     for (const auto& [x, origin] : particles) {
-      for (int a = 0; a < dimension_; ++a) {
-        if (x[a] > min[a] && x[a] < max[a]) continue;
-        throw SceneError(region_name(r),
-                         fmt::format("liquid at {} stands outside the tank, which reaches from {} to {}",
-                                     place(x, dimension_), place(min, dimension_), place(max, dimension_)));
-      }
+      if (is_inside_tank(x)) continue;
+      throw SceneError(region_name(r),
+                       fmt::format("liquid at {} stands outside the tank, which reaches from {} to {}",
+                                   place(x, dimension_), place(to_vector(scene_.domain().min()), dimension_),
+                                   place(to_vector(scene_.domain().max()), dimension_)));
     }
   }
 
@@ -148,6 +157,38 @@ class Filling {
       particles[i].position += way[i];
       particles[i].origin += way[i];
     }
+  }
+
+  // Moves the particles that the cut left too near to a body off its surface; between it and the tank there
+  // may be no room for them.
+  void clear_surfaces(std::vector<Particle>& particles) const {
+    const double clearance = kTooNear * scene_.spacing();
+    for (const Body& body : scene_.body()) {
+      if (!body.displaces_fluid()) continue;
+      const fluid::Shape shape = to_shape(body, dimension_);
+      const fluid::Kinematics pose = initial_kinematics(body, dimension_);
+      for (Particle& p : particles) {
+        const double missing = clearance - distance(shape, pose, p.position, dimension_);
+        if (missing <= 0) continue;
+        const Eigen::Vector3d way = missing * outward(shape, pose, p.position);
+        p.position += way;
+        p.origin += way;
+      }
+      std::erase_if(particles, [&](const Particle& p) { return !is_inside_tank(p.position); });
+    }
+  }
+
+  // The direction in which the distance from a body's surface grows.
+  Eigen::Vector3d outward(const fluid::Shape& shape, const fluid::Kinematics& pose,
+                          const Eigen::Vector3d& x) const {
+    const double step = 1e-3 * scene_.spacing();
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+    for (int a = 0; a < dimension_; ++a) {
+      const Eigen::Vector3d along = step * Eigen::Vector3d::Unit(a);
+      gradient[a] =
+          distance(shape, pose, x + along, dimension_) - distance(shape, pose, x - along, dimension_);
+    }
+    return gradient.stableNormalized();
   }
 
   const Scene& scene_;

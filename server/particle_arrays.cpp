@@ -43,6 +43,13 @@ std::span<const double> values_of(const fluid::Snapshot& state, ParticleField fi
   }
 }
 
+std::vector<std::int64_t> ids_of(const fluid::Snapshot& state, const Rows* rows) {
+  if (rows == nullptr) return {state.id.begin(), state.id.end()};
+  std::vector<std::int64_t> ids;
+  for (const std::size_t i : *rows) ids.push_back(state.id[i]);
+  return ids;
+}
+
 template <typename Real>
 void add(Message& frame, const ParticleArray& array, std::span<const double> all, const Rows* rows) {
   const std::size_t width = array.components;
@@ -65,7 +72,7 @@ void add_particles(Message& frame, const Scene& scene, const fluid::Snapshot& st
   const std::optional<Rows> rows = chosen(scene.output(), state);
   for (const ParticleArray& array : protocol::particle_arrays(scene)) {
     if (array.name == protocol::kParticleId) {
-      const std::vector<std::int64_t> ids(rows->begin(), rows->end());
+      const std::vector<std::int64_t> ids = ids_of(state, rows ? &*rows : nullptr);
       frame.add_array<std::int64_t>(array.name, ids, {ids.size()});
     } else if (array.type == Array::FLOAT32) {
       add<float>(frame, array, values_of(state, array.field), rows ? &*rows : nullptr);

@@ -25,6 +25,7 @@ class Probes {
   Row row(const Probe& probe) const {
     if (probe.has_point()) return point(probe.point());
     if (probe.has_surface()) return surface(probe.surface());
+    if (probe.has_flow()) return flow(probe.flow());
     return force(probe.force());
   }
 
@@ -70,6 +71,13 @@ class Probes {
     const Eigen::Vector3d arm = now(b).position - to_vector(probe.about());
     const Eigen::Vector3d moment = wrench.moment + arm.cross(wrench.force);
     return {wrench.force.x(), wrench.force.y(), wrench.force.z(), moment.x(), moment.y(), moment.z()};
+  }
+
+  [[nodiscard]] Row flow(const FlowProbe& probe) const {
+    int o = 0;
+    while (simulation_.scene.opening(o).name() != probe.opening()) ++o;
+    const fluid::Passage passage = simulation_.solver->diagnostics().openings[static_cast<std::size_t>(o)];
+    return {passage.rate, passage.mass_in, passage.mass_out, 0, 0, 0};
   }
 
   const Simulation& simulation_;

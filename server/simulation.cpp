@@ -13,6 +13,7 @@
 #include "server/formulation.hpp"
 #include "server/geometry.hpp"
 #include "server/liquid.hpp"
+#include "server/openings.hpp"
 
 namespace sluice::server {
 
@@ -37,19 +38,22 @@ fluid::Period to_period(const fluid::Tank& tank) {
 }
 
 // Sides that are mirrors, since that costs less and leaves no trace at the waterline: closed, at rest, not
-// sticking and along gravity, in scenes without bodies: fluid that a body presses against a mirror is thrown
-// out of the gap (fluid/README.md, "Periodic and mirrored sides"). The formulations that carry vectors in
-// arrays of their own have no images of them.
+// sticking and along gravity. The formulations that carry vectors in arrays of their own have no images of
+// them.
 std::array<bool, 6> mirrored_sides(const Scene& scene, const fluid::Tank& tank, double support) {
   std::array<bool, 6> mirrored{};
   const Formulation& formulation = scene.formulation();
   const bool sticks = tank.no_slip && scene.liquid().viscosity() > 0.0;
   const bool has_images = formulation.quadrature() == NODAL && formulation.integrator() == KICK_DRIFT_KICK;
-  if (scene.body_size() > 0 || sticks || !has_images) return mirrored;
+  if (sticks || !has_images) return mirrored;
   for (std::size_t side = 0; side < 2 * scene.dimension(); ++side) {
     const auto a = static_cast<Eigen::Index>(side / 2);
-    mirrored[side] = tank.closed[side] && !tank.periodic[side / 2] && tank.velocity[side].isZero(0) &&
-                     to_vector(scene.gravity())[a] == 0.0 && tank.max[a] - tank.min[a] > 3 * support;
+    const bool has_opening =
+        std::any_of(tank.openings.begin(), tank.openings.end(),
+                    [side](const fluid::Opening& opening) { return opening.side == static_cast<int>(side); });
+    mirrored[side] = tank.closed[side] && !has_opening && !tank.periodic[side / 2] &&
+                     tank.velocity[side].isZero(0) && to_vector(scene.gravity())[a] == 0.0 &&
+                     tank.max[a] - tank.min[a] > 3 * support;
   }
   return mirrored;
 }
@@ -80,6 +84,7 @@ fluid::Setup to_setup(const Scene& scene, int threads) {
 
   const double support = 2 * setup.formulation.smoothing * setup.spacing;  // of the kernel, 2 h
   fluid::Tank tank = to_tank(scene.domain());
+  tank.openings = setup.openings = to_openings(scene);
   tank.mirrored = mirrored_sides(scene, tank, support);
   setup.period = to_period(tank);
   setup.mirrors = {tank.min, tank.max, tank.mirrored};

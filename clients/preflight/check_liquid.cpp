@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "clients/preflight/checks.hpp"
@@ -60,7 +61,11 @@ void check_depth(const RegionLayout& region, const Layout& layout, Findings& fin
 }  // namespace
 
 void check_liquid(const Layout& layout, Findings& findings) {
-  if (layout.regions.empty()) findings.error("fluid", "the scene has no liquid; add a fluid region");
+  const auto& openings = layout.scene.opening();
+  const bool is_fed = std::any_of(openings.begin(), openings.end(),
+                                  [](const Opening& opening) { return opening.has_inflow(); });
+  if (layout.regions.empty() && !is_fed)
+    findings.error("fluid", "the scene has no liquid; add a fluid region");
   for (std::size_t r = 0; r < layout.regions.size(); ++r) {
     check_inside(layout.regions[r], layout, findings);
     check_apart(r, layout, findings);

@@ -69,6 +69,19 @@ double wall_particles(const Layout& layout, double layers) {
   return outside - inside;
 }
 
+// Buffers behind the openings, as deep as two supports (fluid/openings.hpp); they stand in no frame. An
+// inflow's may be dry in part.
+double buffer_particles(const Layout& layout, double support) {
+  double particles = 0;
+  for (const Opening& opening : layout.scene.opening()) {
+    double cells = std::ceil(2 * support / layout.spacing);
+    for (int entry = 0; entry < opening.min_size(); ++entry)
+      cells *= (opening.max(entry) - opening.min(entry)) / layout.spacing;
+    particles += cells;
+  }
+  return particles;
+}
+
 // Layers below the surface; of a thick body no more than fill it, of a thin one each face has its own.
 double body_volume_in_particles(const BodyLayout& body, const Layout& layout, double support) {
   const rigid::Shape& shape = body.placed.shape;
@@ -92,19 +105,20 @@ Estimate estimate(const Layout& layout) {
   for (const BodyLayout& body : layout.bodies)
     boundary += body_volume_in_particles(body, layout, layers * layout.spacing) / particle;
   const double fluid = fluid_volume(layout) / particle;
+  const double moved = fluid + buffer_particles(layout, 2 * h);
 
   Estimate result;
   result.fluid_particles = static_cast<std::uint64_t>(std::llround(fluid));
   result.boundary_particles = static_cast<std::uint64_t>(std::llround(boundary));
   result.memory_bytes =
-      static_cast<std::uint64_t>(kBaseBytes + kFluidBytes * fluid + kBoundaryBytes * boundary);
+      static_cast<std::uint64_t>(kBaseBytes + kFluidBytes * moved + kBoundaryBytes * boundary);
   const double step = formulation.courant() * h / (liquid.sound_speed() + liquid.max_speed());
   const auto clock =
       protocol::StepClock::for_run(layout.scene.duration(), layout.scene.output().rate(), step);
   result.steps = clock.steps();
   result.frames = clock.steps() / clock.steps_per_interval() + 1;
   result.run_seconds =
-      fluid * static_cast<double>(result.steps) / (layout.dimension == 2 ? kSpeed2 : kSpeed3);
+      moved * static_cast<double>(result.steps) / (layout.dimension == 2 ? kSpeed2 : kSpeed3);
   return result;
 }
 

@@ -89,6 +89,10 @@ Json probes(const Reader& recording) {
       probe["wetness"] = row[4];
     } else if (scene.probe(p).has_surface()) {
       probe["height"] = row[1] == 0 ? Json(nullptr) : Json(row[0]);
+    } else if (scene.probe(p).has_flow()) {
+      probe["rate"] = row[0];
+      probe["mass_in"] = row[1];
+      probe["mass_out"] = row[2];
     } else {
       probe["force"] = {row[0], row[1], row[2]};
       probe["moment"] = {row[3], row[4], row[5]};
@@ -131,6 +135,10 @@ std::string probe_text(const Json& probe) {
                        vector_text(probe["velocity"]), probe["wetness"].get<double>());
   if (probe.contains("force"))
     return fmt::format("{} N, {} N m", vector_text(probe["force"]), vector_text(probe["moment"]));
+  if (probe.contains("rate"))
+    return fmt::format("{:.6g} kg/s into the tank; {:.6g} kg came in, {:.6g} kg left",
+                       probe["rate"].get<double>(), probe["mass_in"].get<double>(),
+                       probe["mass_out"].get<double>());
   return probe["height"].is_null() ? "no liquid" : fmt::format("{:.6g} m", probe["height"].get<double>());
 }
 

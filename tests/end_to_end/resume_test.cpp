@@ -77,6 +77,17 @@ TEST_F(Resume, ARunOfWhichOnlySomeParticlesAreRecorded) {
   EXPECT_EQ(redriven.out, "identical\n") << redriven.err;
 }
 
+// Liquid that comes in and leaves: both parts of the run have particles that the other has not.
+TEST_F(Resume, AStreamUnderAGate) {
+  expect_resumable("sluice_gate", {"--set", "spacing=0.02"}, "0.6", "1.2");
+  const clients::Reader recording = read("part.h5");
+  const std::uint64_t last = recording.frames() - 1;
+  EXPECT_GT(recording.frame(last).array<std::int64_t>("fluid/id").back(),
+            static_cast<std::int64_t>(recording.welcome().fluid_particles()));
+  const Outcome redriven = redrive("part.h5", "1");
+  EXPECT_EQ(redriven.out, "identical\n") << redriven.err;
+}
+
 TEST_F(Resume, AGateThatIsReleasedAndDrops) {
   expect_resumable("dropped_gate", {"--set", "spacing=0.008"}, "0.42", "0.6");
 }
@@ -142,26 +153,38 @@ void kill_all(pid_t program) {
 }
 
 // Everybody is killed, wherever each of them is; the checkpoints are as old as they are.
-TEST_F(Resume, AfterEverybodyWasKilled) {
-  const Options options{"--set", "spacing=0.022", "--threads", "1", "--until", "0.35"};
-  run("falling_cylinder", "whole.h5", options);
-  const std::string scene = std::string(SLUICE_SOURCE) + "/clients/scenes/falling_cylinder.scene";
-  const pid_t program =
-      start(joined({"run", scene, "-o", path("killed.h5").string(), "--checkpoint-every", "0.03"}, options));
-  // Until it has written its second checkpoint.
-  while (!std::filesystem::exists(path("killed.previous.checkpoint")))
-    ASSERT_EQ(waitpid(program, nullptr, WNOHANG), 0) << "the run ended before it could be killed";
-  kill_all(program);
-  ASSERT_EQ(read("killed.h5").ending(), clients::Ending::kCutShort);
+class ResumeKilled : public Resume {
+ protected:
+  void expect_resumable_after_kill(const std::string& name, const std::string& until,
+                                   const std::string& every, const Options& more) const {
+    const Options options = joined({"--threads", "1", "--until", until}, more);
+    run(name, "whole.h5", options);
+    const std::string scene = std::string(SLUICE_SOURCE) + "/clients/scenes/" + name + ".scene";
+    const pid_t program =
+        start(joined({"run", scene, "-o", path("killed.h5").string(), "--checkpoint-every", every}, options));
+    // Until it has written its second checkpoint.
+    while (!std::filesystem::exists(path("killed.previous.checkpoint")))
+      ASSERT_EQ(waitpid(program, nullptr, WNOHANG), 0) << "the run ended before it could be killed";
+    kill_all(program);
+    ASSERT_EQ(read("killed.h5").ending(), clients::Ending::kCutShort);
 
-  const Outcome resumed = sluice({"resume", "killed.checkpoint", "--until", "0.35"});
-  ASSERT_EQ(resumed.code, 0) << resumed.err;
-  expect_same_run("whole.h5", "killed.h5");
+    const Outcome resumed = sluice({"resume", "killed.checkpoint", "--until", until});
+    ASSERT_EQ(resumed.code, 0) << resumed.err;
+    expect_same_run("whole.h5", "killed.h5");
 
-  // Also from the one before, of a recording that has gone beyond.
-  const Outcome again = sluice({"resume", "killed.previous.checkpoint", "--until", "0.35"});
-  ASSERT_EQ(again.code, 0) << again.err;
-  expect_same_run("whole.h5", "killed.h5");
+    // Also from the one before, of a recording that has gone beyond.
+    const Outcome again = sluice({"resume", "killed.previous.checkpoint", "--until", until});
+    ASSERT_EQ(again.code, 0) << again.err;
+    expect_same_run("whole.h5", "killed.h5");
+  }
+};
+
+TEST_F(ResumeKilled, WithAFloatingBody) {
+  expect_resumable_after_kill("falling_cylinder", "0.35", "0.03", {"--set", "spacing=0.022"});
+}
+
+TEST_F(ResumeKilled, WithLiquidThatComesAndGoes) {
+  expect_resumable_after_kill("sluice_gate", "1.2", "0.1", {"--set", "spacing=0.02"});
 }
 
 // Ctrl-C, as soon as there is a frame to go on from.

@@ -8,6 +8,7 @@ COLUMNS = {
     "point": {"pressure": "Pa", "velocity_x": "m/s", "velocity_y": "m/s", "velocity_z": "m/s", "wetness": "1"},
     "surface": {"height": "m"},
     "force": FORCES,
+    "flow": {"rate": "kg/s", "mass_in": "kg", "mass_out": "kg"},
 }
 
 

@@ -80,7 +80,7 @@ TEST(Probes, AreChecked) {
   EXPECT_EQ(errors("name: \"a\" point { position: [0.1, 0.1] body: \"gate\" }"), "");
   EXPECT_EQ(errors("name: \"a\" surface { position: [0.1, 0] }"), "");
   EXPECT_EQ(errors("name: \"a\" force { body: \"gate\" }"), "");
-  EXPECT_THAT(errors("name: \"a\""), HasSubstr("probe[0]: has no kind; give point, surface or force"));
+  EXPECT_THAT(errors("name: \"a\""), HasSubstr("probe[0]: has no kind; give point, surface, force or flow"));
   EXPECT_THAT(errors("point { position: [0, 0] }"), HasSubstr("probe[0].name: is missing; name the probe"));
   EXPECT_THAT(errors("name: \"a\" point { }"), HasSubstr("probe[0].point.position: is missing"));
   EXPECT_THAT(errors("name: \"a\" force { }"),

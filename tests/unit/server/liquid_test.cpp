@@ -139,6 +139,28 @@ TEST(Liquid, IsCutAroundABodyInItsPose) {
   EXPECT_LT(nearest_to(liquid, {0.85, 0.55, 0}), 1e-9);
 }
 
+// With a second body beside it nothing is packed; still nothing stands nearer to a surface than a quarter of
+// a spacing, and nothing is lost.
+TEST(Liquid, KeepsOffTheBodiesThatItIsNotPackedAround) {
+  const auto ball = [](const char* name, double x) {
+    return fmt::format(
+        "body {{ name: '{}' ball {{ radius: 0.103 }} position: [{}, 0.503] density: 500 "
+        "displaces_fluid: true }} ",
+        name, x);
+  };
+  const fluid::FluidParticles liquid =
+      fill("fluid { box { min: [0, 0] max: [1, 1] } } " + ball("a", 0.3) + ball("b", 0.6));
+  std::size_t outside = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector3d x((i % 10 + 0.5) * 0.1, (i / 10 + 0.5) * 0.1, 0);
+    outside += (x - Eigen::Vector3d(0.3, 0.503, 0)).norm() >= 0.103 &&
+               (x - Eigen::Vector3d(0.6, 0.503, 0)).norm() >= 0.103;
+  }
+  EXPECT_EQ(liquid.position.size(), outside);
+  EXPECT_GE(nearest_to(liquid, {0.3, 0.503, 0}), 0.103 + 0.0249);
+  EXPECT_GE(nearest_to(liquid, {0.6, 0.503, 0}), 0.103 + 0.0249);
+}
+
 TEST(Liquid, ABodyAtItsEdgeDisplacesNothing) {
   const std::string gate = "body { name: 'gate' box { size: [0.1, 1] } position: [0.55, 0.5] density: 1 ";
   const std::string water = "fluid { box { min: [0, 0] max: [0.5, 0.5] } } ";

@@ -18,6 +18,7 @@ fluid::Snapshot row() {
     state.velocity.insert(state.velocity.end(), {x + 1, x + 2, 0});
     state.density.push_back(1000 + i);
     state.pressure.push_back(1.0 / (3 + i));
+    state.id.push_back(static_cast<std::uint32_t>(i));
   }
   return state;
 }
@@ -43,6 +44,25 @@ TEST(ParticleArrays, AreAllFieldsOfAllParticlesByDefault) {
   EXPECT_EQ(message.shape("fluid/position"), (Shape{4, 3}));
   const auto pressure = message.array<double>("fluid/pressure");
   EXPECT_EQ(std::vector<double>(pressure.begin(), pressure.end()), row().pressure);
+}
+
+// What comes in through an opening has a number of its own, and so has what stays when others leave.
+TEST(ParticleArrays, HoldTheNumbersWhereLiquidComesAndGoes) {
+  Scene scene;
+  scene.add_opening();
+  fluid::Snapshot state = row();
+  state.id = {0, 3, 4, 9};
+  protocol::Message message;
+  add_particles(message, scene, state);
+  const auto all = message.array<std::int64_t>("fluid/id");
+  EXPECT_EQ(std::vector<std::int64_t>(all.begin(), all.end()), (std::vector<std::int64_t>{0, 3, 4, 9}));
+  Span& region = *scene.mutable_output()->mutable_region();
+  for (const double x : {0.15, 0.0}) region.add_min(x);
+  for (const double x : {0.35, 1.0}) region.add_max(x);
+  protocol::Message selected;
+  add_particles(selected, scene, state);
+  const auto some = selected.array<std::int64_t>("fluid/id");
+  EXPECT_EQ(std::vector<std::int64_t>(some.begin(), some.end()), (std::vector<std::int64_t>{3, 4}));
 }
 
 TEST(ParticleArrays, HoldThePositionWhateverIsAskedFor) {

@@ -27,6 +27,30 @@ TEST(Setup, TakesOverLiquidAndFormulation) {
   EXPECT_EQ(setup.threads, 3);
 }
 
+TEST(Setup, TakesOverOpenings) {
+  const fluid::Setup setup = server::to_setup(
+      tank_with("fluid { box { min: [0, 0] max: [1, 1] } } "
+                "opening { name: 'in' side: X_MIN min: 0.2 max: 0.7 inflow { speed: 't*y' level: '1+t' } } "
+                "opening { name: 'out' side: X_MAX outflow { pressure: '5*x' } }"),
+      1);
+  ASSERT_EQ(setup.openings.size(), 2u);
+  const fluid::Opening &in = setup.openings[0], &out = setup.openings[1];
+  EXPECT_TRUE(in.inflow);
+  EXPECT_EQ(in.side, 0);
+  EXPECT_EQ(in.min, Eigen::Vector3d(0, 0.2, 0));
+  EXPECT_EQ(in.max, Eigen::Vector3d(0, 0.7, 0));
+  EXPECT_EQ(in.speed(3, {0, 0.5, 0}), 1.5);
+  EXPECT_EQ(in.level(3), 4);
+  EXPECT_FALSE(in.pressure);
+  EXPECT_FALSE(out.inflow);
+  EXPECT_EQ(out.side, 1);
+  EXPECT_EQ(out.min, Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(out.max, Eigen::Vector3d(1, 2, 0));
+  EXPECT_EQ(out.pressure(0, {2, 0, 0}), 10);
+  EXPECT_FALSE(out.level);
+  EXPECT_EQ(setup.mirrors.at, (std::array<bool, 6>{})) << "a side with an opening is no mirror";
+}
+
 TEST(Setup, TakesOverTheChoicesOfTheFormulation) {
   const auto formulation = [](const std::string& text) {
     return server::to_setup(tank_with("liquid { viscosity: 1 } fluid { box { min: [0, 0] max: [1, 1] } } "

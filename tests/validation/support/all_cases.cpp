@@ -5,6 +5,7 @@
 #include "validation/hydrostatic_column/hydrostatic_column.hpp"
 #include "validation/jet_on_wall/jet_on_wall.hpp"
 #include "validation/rotating_patch/rotating_patch.hpp"
+#include "validation/sluice_gate/sluice_gate.hpp"
 #include "validation/standing_wave/standing_wave.hpp"
 #include "validation/taylor_green/taylor_green.hpp"
 
@@ -14,7 +15,7 @@ const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases{hydrostatic_column(),  standing_wave(),    viscous_standing_wave(),
                                        rotating_patch(),      elliptical_drop(),  taylor_green(),
                                        poiseuille_start_up(), couette_start_up(), jet_on_wall(),
-                                       dam_break(),           drop_impact()};
+                                       dam_break(),           drop_impact(),      sluice_gate()};
   return cases;
 }
 
