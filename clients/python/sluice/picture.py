@@ -120,8 +120,9 @@ class Panel:
     def show(self, frame, title):
         values, opacity, brightness = self._liquid(frame)
         rgba = self.colors(self.norm(np.nan_to_num(values)), bytes=True)
-        rgba[..., :3] = np.round(rgba[..., :3] * brightness[..., None])
-        rgba[..., 3] = np.round(255 * opacity)
+        if brightness is not None:
+            rgba[..., :3] = rgba[..., :3] * brightness[..., None] + 0.5
+        rgba[..., 3] = 255 * opacity + 0.5
         self.image.set_data(rgba)
         self._show_bodies(frame)
         if self.style.front:

@@ -1,4 +1,6 @@
-"""Particles as an image: arrays [height, width] of values, NaN where there is no liquid, of opacity and of brightness."""
+"""Particles as an image: arrays [height, width] of values, NaN where there is no liquid, of opacity and of brightness, which is
+None where all is lit alike.
+"""
 
 from dataclasses import dataclass
 
@@ -133,7 +135,7 @@ def interpolate(grid, places, values, spacing, volumes=None):
     steepness = grid.pixel / spacing  # about the change of the sum over a pixel at a surface
     opacity = np.maximum(np.clip(0.5 + (total - SURFACE) / steepness, 0, 1), edge)
     image[opacity == 0] = np.nan
-    return image, opacity, np.ones_like(image)
+    return image, opacity, None
 
 
 def discs(grid, places, values, spacing, depth=None):
@@ -149,8 +151,8 @@ def discs(grid, places, values, spacing, depth=None):
         at = pixel[order]
         front[at], image[at], distance[at] = key[order], values[particle[order]], np.sqrt(square[order])
     opacity = np.clip((radius - distance) / grid.pixel + 0.5, 0, 1)
-    brightness = np.ones(count)
-    if depth is not None:
-        opacity = (distance < radius).astype(float)
-        brightness = 0.6 + 0.4 * np.sqrt(1 - np.minimum(distance / radius, 1) ** 2)
+    if depth is None:
+        return *grid.shaped(image, opacity), None
+    opacity = (distance < radius).astype(float)
+    brightness = 0.6 + 0.4 * np.sqrt(1 - np.minimum(distance / radius, 1) ** 2)
     return grid.shaped(image, opacity, brightness)
