@@ -3,6 +3,7 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <vector>
@@ -31,6 +32,8 @@ class FakeSolver : public fluid::Solver {
       state_.velocity.insert(state_.velocity.end(), v.begin(), v.end());
     state_.density.assign(setup.fluid.position.size(), setup.liquid.density);
     state_.pressure = setup.fluid.pressure;
+    state_.id.resize(setup.fluid.position.size());
+    std::iota(state_.id.begin(), state_.id.end(), 0u);
   }
 
   void start(std::span<const fluid::Kinematics> bodies) override {

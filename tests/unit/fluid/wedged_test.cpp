@@ -22,16 +22,30 @@ class Box {
     center_ = {1.5, gap + 0.5, 0};
   }
 
-  bool holds(double x, double y) const {
-    BoundaryParticles<2> boundary(scene_.setup);
-    const Kinematics pose{.position = center_};
-    boundary.move({&pose, 1});
-    std::vector<std::uint32_t> all(boundary.size());
-    std::iota(all.begin(), all.end(), 0u);
-    return is_wedged<2>(Model<2>(scene_.setup), Vec<2>(x, y), all, boundary);
+  // Whether fluid there is a film; `mirrors` are sides besides the floor.
+  bool holds(double x, double y, std::span<const Plane<2>> mirrors = {}) const {
+    const BoundaryParticles<2> boundary = placed();
+    return is_wedged<2>(Model<2>(scene_.setup), Vec<2>(x, y), all(boundary), boundary, mirrors);
+  }
+  // Whether fluid there is behind a surface.
+  bool has_inside(double x, double y) const {
+    const BoundaryParticles<2> boundary = placed();
+    return is_inside_boundary<2>(Vec<2>(x, y), all(boundary), boundary);
   }
 
  private:
+  BoundaryParticles<2> placed() const {
+    BoundaryParticles<2> boundary(scene_.setup);
+    const Kinematics pose{.position = center_};
+    boundary.move({&pose, 1});
+    return boundary;
+  }
+  static std::vector<std::uint32_t> all(const BoundaryParticles<2>& boundary) {
+    std::vector<std::uint32_t> index(boundary.size());
+    std::iota(index.begin(), index.end(), 0u);
+    return index;
+  }
+
   Scene scene_;
   Eigen::Vector3d center_;
 };
@@ -46,6 +60,28 @@ TEST(Wedged, NotInAGapOfThree) {
 
 TEST(Wedged, NotInTheCornerBesideABodyOnTheFloor) {
   EXPECT_FALSE(Box(0).holds(1.0 - 0.5 * kSpacing, 0.5 * kSpacing));
+}
+
+TEST(Wedged, InAGapOfASpacingBesideAMirror) {
+  const Plane<2> near{Vec<2>::UnitX(), 1.0 - kSpacing}, far{Vec<2>::UnitX(), 1.0 - 2 * kSpacing};
+  const Plane<2> facing_away{-Vec<2>::UnitX(), -1.0};
+  const Box box(5 * kSpacing);
+  EXPECT_TRUE(box.holds(1.0 - 0.5 * kSpacing, 1.0, {&near, 1}));
+  EXPECT_FALSE(box.holds(1.0 - 0.5 * kSpacing, 1.0, {&far, 1}));
+  EXPECT_FALSE(box.holds(1.0 - 0.5 * kSpacing, 1.0, {&facing_away, 1}));
+}
+
+// Around the whole box, its corners included.
+TEST(InsideABoundary, BehindItsSurfaceOnly) {
+  const double gap = 5 * kSpacing;
+  const Box box(gap);
+  int inside = 0;
+  for (double along = -0.1; along < 1.1; along += 0.017) {
+    EXPECT_FALSE(box.has_inside(1.0 + along, gap - 1e-6)) << along;
+    EXPECT_FALSE(box.has_inside(1.0 - 1e-6, gap + along)) << along;
+    inside += box.has_inside(1.0 + along, gap + 0.3 * kSpacing);
+  }
+  EXPECT_GT(inside, 50);
 }
 
 TEST(Wedged, NotOnTheFloorAlone) {

@@ -1,5 +1,6 @@
 #include "server/liquid.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
