@@ -20,7 +20,13 @@ h5::File create_file(const std::filesystem::path& path) {
   const h5::Properties access(H5Pcreate(H5P_FILE_ACCESS), "make file properties");
   h5::check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "choose a file version");
   h5::check(H5Pset_file_locking(access, true, true), "choose file locking");
-  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "create the file"};
+  // A kill may end a write between two of the system's pages, and a block of metadata that is half old and
+  // half new cannot be read. Where the file's space goes by pages, small blocks lie within one and large ones
+  // begin one.
+  const h5::Properties space(H5Pcreate(H5P_FILE_CREATE), "make file properties");
+  h5::check(H5Pset_file_space_strategy(space, H5F_FSPACE_STRATEGY_PAGE, false, 1), "choose the file's space");
+  h5::check(H5Pset_file_space_page_size(space, 4096), "choose the file's pages");
+  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, space, access), "create the file"};
 }
 
 protocol::StepClock clock_of(const Welcome& welcome) {
