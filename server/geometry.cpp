@@ -111,6 +111,13 @@ fluid::Kinematics initial_kinematics(const Body& body, int dimension) {
   return k;
 }
 
+bool is_inside_tank(const Scene& scene, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d min = to_vector(scene.domain().min()), max = to_vector(scene.domain().max());
+  for (Eigen::Index a = 0; a < static_cast<Eigen::Index>(scene.dimension()); ++a)
+    if (!(x[a] > min[a] && x[a] < max[a])) return false;
+  return true;
+}
+
 double distance(const fluid::Shape& shape, const fluid::Kinematics& pose, const Eigen::Vector3d& x,
                 int dimension) {
   return fluid::signed_distance(shape, pose.orientation.conjugate() * (x - pose.position), dimension);

@@ -29,6 +29,9 @@ fluid::Kinematics initial_kinematics(const Body& body, int dimension);
 double distance(const fluid::Shape& shape, const fluid::Kinematics& pose, const Eigen::Vector3d& x,
                 int dimension);
 
+// Whether x is within all sides of the tank, open ones too.
+bool is_inside_tank(const Scene& scene, const Eigen::Vector3d& x);
+
 // Largest value of direction.x over a region's shape about its own origin [m].
 double support(const fluid::Shape& shape, const Eigen::Vector3d& direction);
 

@@ -87,16 +87,9 @@ class Filling {
     }
   }
 
-  bool is_inside_tank(const Eigen::Vector3d& x) const {
-    const Eigen::Vector3d min = to_vector(scene_.domain().min()), max = to_vector(scene_.domain().max());
-    for (int a = 0; a < dimension_; ++a)
-      if (!(x[a] > min[a] && x[a] < max[a])) return false;
-    return true;
-  }
-
   void check_inside_tank(int r, const std::vector<Particle>& particles) const {
     for (const auto& [x, origin] : particles) {
-      if (is_inside_tank(x)) continue;
+      if (is_inside_tank(scene_, x)) continue;
       throw SceneError(region_name(r),
                        fmt::format("liquid at {} stands outside the tank, which reaches from {} to {}",
                                    place(x, dimension_), place(to_vector(scene_.domain().min()), dimension_),
@@ -174,7 +167,7 @@ class Filling {
         p.position += way;
         p.origin += way;
       }
-      std::erase_if(particles, [&](const Particle& p) { return !is_inside_tank(p.position); });
+      std::erase_if(particles, [&](const Particle& p) { return !is_inside_tank(scene_, p.position); });
     }
   }
 

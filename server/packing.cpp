@@ -143,7 +143,7 @@ class Packing {
     }
     for (const Eigen::Vector3d& x : lattice_around(body)) {
       const bool is_near = distance_to(body, x) <= kBand * dx_;
-      if (is_near && inside_tank(x)) {
+      if (is_near && is_inside_tank(scene_, x)) {
         moving_.push_back(x);
         source_.push_back(-1);
       } else {
@@ -181,13 +181,6 @@ class Packing {
     return points;
   }
 
-  [[nodiscard]] bool inside_tank(const Eigen::Vector3d& x) const {
-    const Eigen::Vector3d min = to_vector(scene_.domain().min()), max = to_vector(scene_.domain().max());
-    for (int a = 0; a < dimension_; ++a)
-      if (x[a] <= min[a] || x[a] >= max[a]) return false;
-    return true;
-  }
-
   // -W'(r)/r of Wendland's C2 kernel, times the volume of a particle.
   [[nodiscard]] double slope(double r) const {
     const double q = r / h_;
@@ -213,7 +206,7 @@ class Packing {
       push *= kShare * h_ * h_;
       const double length = push.norm();
       if (length > kLargestMove * dx_) push *= kLargestMove * dx_ / length;
-      if (inside_tank(moving_[m] + push)) next[m] += push;
+      if (is_inside_tank(scene_, moving_[m] + push)) next[m] += push;
     }
     moving_ = next;
   }
