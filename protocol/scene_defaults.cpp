@@ -115,7 +115,13 @@ void fill_body(Body& body, int dimension) {
   }
 }
 
-void fill_formulation(Formulation& formulation, unsigned dimension, bool periodic) {
+// Crowds sink where there is gravity; they are measured with the fit of MLS.
+double default_spreading(const Formulation& formulation, bool has_gravity) {
+  const bool has_fit = formulation.approximation() == MLS && formulation.quadrature() == NODAL;
+  return has_fit && has_gravity ? 0.01 : 0.0;
+}
+
+void fill_formulation(Formulation& formulation, unsigned dimension, bool periodic, bool has_gravity) {
   if (!formulation.has_smoothing()) formulation.set_smoothing(dimension == 2 ? 1.45 : 1.49);
   if (!formulation.has_density_diffusion()) formulation.set_density_diffusion(0.1);
   if (!formulation.has_artificial_viscosity()) formulation.set_artificial_viscosity(0.02);
@@ -133,6 +139,7 @@ void fill_formulation(Formulation& formulation, unsigned dimension, bool periodi
   if (!formulation.has_initial_parameters()) formulation.set_initial_parameters(false);
   if (!formulation.has_tension_control()) formulation.set_tension_control(false);
   if (!formulation.has_shifting()) formulation.set_shifting(periodic ? 6 : 0);
+  if (!formulation.has_spreading()) formulation.set_spreading(default_spreading(formulation, has_gravity));
 }
 
 void fill_output(Output& output, double duration) {
@@ -173,7 +180,8 @@ Scene with_defaults(const Scene& scene) {
   for (auto& opening : *full.mutable_opening()) fill_opening(opening, full.domain());
   for (auto& body : *full.mutable_body()) fill_body(body, dimension);
   fill_output(*full.mutable_output(), full.duration());
-  fill_formulation(*full.mutable_formulation(), full.dimension(), full.domain().periodic_size() > 0);
+  fill_formulation(*full.mutable_formulation(), full.dimension(), full.domain().periodic_size() > 0,
+                   norm(full.gravity()) > 0);
   fill_coupling(*full.mutable_coupling());
   return full;
 }
