@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "clients/preflight/checks.hpp"
+#include "protocol/liquids.hpp"
 #include "protocol/sim_time.hpp"
 
 namespace sluice::clients {
@@ -96,7 +97,6 @@ double body_volume_in_particles(const BodyLayout& body, const Layout& layout, do
 
 Estimate estimate(const Layout& layout) {
   const auto& formulation = layout.scene.formulation();
-  const auto& liquid = layout.scene.liquid();
   const double h = formulation.smoothing() * layout.spacing,
                layers = std::ceil(2 * formulation.smoothing() - 1e-9);
   const double particle = std::pow(layout.spacing, layout.dimension);
@@ -112,7 +112,7 @@ Estimate estimate(const Layout& layout) {
   result.boundary_particles = static_cast<std::uint64_t>(std::llround(boundary));
   result.memory_bytes =
       static_cast<std::uint64_t>(kBaseBytes + kFluidBytes * moved + kBoundaryBytes * boundary);
-  const double step = formulation.courant() * h / (liquid.sound_speed() + liquid.max_speed());
+  const double step = formulation.courant() * h / (protocol::fastest_sound(layout.scene) + layout.scene.liquid().max_speed());
   const auto clock =
       protocol::StepClock::for_run(layout.scene.duration(), layout.scene.output().rate(), step);
   result.steps = clock.steps();
