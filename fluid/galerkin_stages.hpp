@@ -423,9 +423,9 @@ double GalerkinSolver<Dim, Kernel>::largest_step(double max_speed) const {
   double viscosity = model_.artificial_viscosity / model_.eos.rest_density();  // kinematic
   for (const LiquidConstants& liquid : fluid_.liquids) {
     sound_speed = std::max(sound_speed, model_.eos.sound_speed() / std::sqrt(liquid.relative_density));
-    // Between two liquids the coefficient is up to twice the smaller one.
-    viscosity = std::max(viscosity,
-                         2.0 * liquid.pair_viscosity / (liquid.relative_density * model_.eos.rest_density()));
+    // The mean friction is up to twice the smaller one.
+    viscosity = std::max(viscosity, (liquid.pair_viscosity + liquid.friction) /
+                                        (liquid.relative_density * model_.eos.rest_density()));
   }
   const double acoustic = model_.h / (sound_speed + max_speed);
   const double viscous = model_.h * model_.h / (viscosity + 1e-300);

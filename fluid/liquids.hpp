@@ -13,9 +13,9 @@ namespace sluice::fluid {
 struct LiquidConstants {
   double relative_density = 1;  // rho0 over the reference's
   double viscosity = 0;         // mu [Pa s]
-  // Coefficient of the pairwise viscosity, alpha h c0 rho0 + 2 (Dim + 2) mu [Pa s], and of the density
-  // diffusion, 2 delta h c0 [m^2/s].
-  double pair_viscosity = 0;
+  // Coefficient of the pairwise viscosity, alpha h c0 rho0 + 2 (Dim + 2) mu, and of that with other liquids,
+  // which is the latter term [Pa s]; of the density diffusion, 2 delta h c0 [m^2/s].
+  double pair_viscosity = 0, friction = 0;
   double density_diffusion = 0;
 };
 
@@ -24,12 +24,15 @@ inline std::vector<LiquidConstants> liquid_constants(const Setup& setup) {
   const Formulation& f = setup.formulation;
   const double h = f.smoothing * setup.spacing;
   std::vector<LiquidConstants> all;
-  for (const Liquid& liquid : setup.liquids)
-    all.push_back({.relative_density = liquid.density / setup.liquid.density,
-                   .viscosity = liquid.viscosity,
-                   .pair_viscosity = f.artificial_viscosity * h * liquid.sound_speed * liquid.density +
-                                     2.0 * (setup.dimension + 2) * liquid.viscosity,
-                   .density_diffusion = 2.0 * f.density_diffusion * h * liquid.sound_speed});
+  for (const Liquid& liquid : setup.liquids) {
+    const double friction = 2.0 * (setup.dimension + 2) * liquid.viscosity;
+    all.push_back(
+        {.relative_density = liquid.density / setup.liquid.density,
+         .viscosity = liquid.viscosity,
+         .pair_viscosity = f.artificial_viscosity * h * liquid.sound_speed * liquid.density + friction,
+         .friction = friction,
+         .density_diffusion = 2.0 * f.density_diffusion * h * liquid.sound_speed});
+  }
   return all;
 }
 
@@ -41,10 +44,11 @@ inline double pressure_bias(const LiquidConstants& i, const LiquidConstants& k) 
   return (k.relative_density - i.relative_density) / (k.relative_density + i.relative_density);
 }
 
-// Harmonic, so that the lighter liquid is not dragged by the heavier one's coefficient; zero if one is.
-inline double mean_viscosity(const LiquidConstants& i, const LiquidConstants& k) {
-  const double sum = i.pair_viscosity + k.pair_viscosity;
-  return sum > 0.0 ? 2.0 * i.pair_viscosity * k.pair_viscosity / sum : 0.0;
+// Of the friction coefficients: the harmonic mean, so that the heavier liquid's does not drag the lighter
+// one; zero if one is.
+inline double mean_friction(const LiquidConstants& i, const LiquidConstants& k) {
+  const double sum = i.friction + k.friction;
+  return sum > 0.0 ? 2.0 * i.friction * k.friction / sum : 0.0;
 }
 
 }  // namespace sluice::fluid

@@ -1,0 +1,138 @@
+#include "fluid/liquids.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/fluid/setups.hpp"
+
+namespace sluice::fluid {
+namespace {
+
+constexpr double kSpacing = 0.1, kSound = 30;
+
+// Without dissipation forces and divergence can be compared to round-off.
+void leave_dissipation_out(Setup& setup) {
+  setup.formulation.artificial_viscosity = setup.formulation.density_diffusion = 0;
+}
+
+// Two liquids, the reference and one lighter by `ratio`; particles are of the second where `is_light` says
+// so.
+template <typename IsLight>
+void split(Setup& setup, double ratio, const IsLight& is_light) {
+  const Liquid heavy = setup.liquid;
+  setup.liquids = {heavy, {heavy.density / ratio, heavy.viscosity, heavy.sound_speed * std::sqrt(ratio)}};
+  for (const Eigen::Vector3d& x : setup.fluid.position) setup.fluid.liquid.push_back(is_light(x) ? 1 : 0);
+}
+
+// A light and a heavy block that run into each other, away from walls and without gravity.
+Scene collision(int dimension, double ratio) {
+  Scene scene(dimension, kSpacing, 0, kSound);
+  const double depth = dimension == 3 ? 0.45 : 0;
+  scene.add_block({0.05, 0.05, 0.05}, {0.65, 0.75, depth}, {1, 0.3, 0});
+  scene.add_block({0.65, 0.15, 0.05}, {1.25, 0.85, depth}, {-1, 0, 0.2});
+  split(scene.setup, ratio, [](const Eigen::Vector3d& x) { return x.x() > 0.65; });
+  return scene;
+}
+
+double energy(const Diagnostics& d) {
+  return d.kinetic + d.potential + d.elastic;
+}
+
+class CollisionIn : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Liquids, CollisionIn, testing::Values(2, 3));
+
+TEST_P(CollisionIn, KeepsLinearAndAngularMomentum) {
+  for (const double ratio : {2.0, 1000.0}) {
+    Scene scene = collision(GetParam(), ratio);
+    for (Liquid& liquid : scene.setup.liquids) liquid.viscosity = 5;
+    const auto solver = make_solver(scene.setup);
+    solver->start({});
+    const Diagnostics from = solver->diagnostics();
+    const double dt = 0.5 * solver->largest_step(2.0);
+    for (int k = 0; k < 60; ++k) solver->step(dt, {});
+    const Diagnostics to = solver->diagnostics();
+    EXPECT_LT((to.momentum - from.momentum).norm(), 1e-11 * from.momentum.norm()) << ratio;
+    EXPECT_LT((to.angular_momentum - from.angular_momentum).norm(), 1e-11 * from.angular_momentum.norm())
+        << ratio;
+    EXPECT_LT(to.kinetic, 0.99 * from.kinetic) << "they must have met";
+  }
+}
+
+// The work of the pressures between the liquids is what the divergence gives to their compression. What is
+// left is the error of the time integration, which is of first order.
+TEST_P(CollisionIn, KeepsEnergyWithoutDissipation) {
+  const auto change = [this](double share) {
+    Scene scene = collision(GetParam(), 10);
+    leave_dissipation_out(scene.setup);
+    const auto solver = make_solver(scene.setup);
+    solver->start({});
+    const double from = energy(solver->diagnostics());
+    const double dt = share * solver->largest_step(2.0);
+    for (double t = 0; t < 0.012; t += dt) solver->step(dt, {});
+    const Diagnostics to = solver->diagnostics();
+    EXPECT_GT(to.elastic, 0.02 * from) << "they must have met";
+    return std::abs(energy(to) / from - 1);
+  };
+  const double coarse = change(0.2), fine = change(0.02);
+  EXPECT_LT(fine, 2e-4);
+  EXPECT_LT(fine, 0.2 * coarse);
+}
+
+// Two liquids of one density are one liquid, by another way through the solver.
+TEST_P(CollisionIn, IsThatOfOneLiquidWhereDensitiesAreEqual) {
+  Scene several = collision(GetParam(), 1), one = collision(GetParam(), 1);
+  one.setup.liquids.clear();
+  one.setup.fluid.liquid.clear();
+  std::vector<Snapshot> states;
+  for (Setup* setup : {&several.setup, &one.setup}) {
+    leave_dissipation_out(*setup);
+    const auto solver = make_solver(*setup);
+    solver->start({});
+    const double dt = 0.5 * solver->largest_step(2.0);
+    for (int k = 0; k < 30; ++k) solver->step(dt, {});
+    states.push_back(solver->snapshot());
+  }
+  EXPECT_EQ(states[0].liquid, several.setup.fluid.liquid);
+  EXPECT_TRUE(states[1].liquid.empty());
+  for (std::size_t k = 0; k < states[0].velocity.size(); ++k)
+    EXPECT_NEAR(states[0].velocity[k], states[1].velocity[k], 1e-10);
+}
+
+// Of layers on a lattice, light over heavy, that start hydrostatically: the first acceleration is that of the
+// lattice's pair sums, 5.2 % of gravity at most whatever the ratio.
+TEST(Liquids, InLayersAreNearlyAtRestAtOnceAndComeToRest) {
+  for (const double ratio : {2.0, 1000.0}) {
+    Scene scene(2, kSpacing, 9.81, kSound);
+    scene.setup.mirrors = {{0, 0, 0}, {1, 2, 0}, {true, true, false, false, false, false}};
+    scene.setup.walls = sample_walls({{0, 0, 0}, {1, 2, 0}, {true, true, true, false, false, false}},
+                                     kSpacing, scene.support(), 2);
+    scene.add_still_water({0, 0, 0}, {1, 1, 0});
+    split(scene.setup, ratio, [](const Eigen::Vector3d& x) { return x.y() > 0.5; });
+    const EquationOfState heavy(1000, kSound), light(1000 / ratio, kSound * std::sqrt(ratio));
+    const double at_interface = light.pressure(light.hydrostatic_density(9.81 * 0.5));
+    for (std::size_t i = 0; i < scene.setup.fluid.position.size(); ++i) {
+      const double y = scene.setup.fluid.position[i].y();
+      scene.setup.fluid.pressure[i] =
+          y > 0.5 ? light.pressure(light.hydrostatic_density(9.81 * (1 - y)))
+                  : heavy.pressure(heavy.hydrostatic_density(heavy.head(at_interface) + 9.81 * (0.5 - y)));
+    }
+    const auto solver = make_solver(scene.setup);
+    solver->start({});
+    const double dt = solver->largest_step(1.0), early = 1e-3 * dt;
+    solver->step(early, {});
+    const Snapshot first = solver->snapshot();
+    double fastest = 0;
+    for (std::size_t i = 0; i < first.density.size(); ++i)
+      if (std::abs(first.position[3 * i + 1] - 0.5) < 0.3)
+        fastest = std::max(fastest, std::abs(first.velocity[3 * i + 1]));
+    EXPECT_LT(fastest, 0.06 * 9.81 * early) << ratio;
+    EXPECT_GT(fastest, 0.01 * 9.81 * early) << ratio;
+    for (int k = 0; k < 2000; ++k) solver->step(dt, {});
+    const Diagnostics d = solver->diagnostics();
+    EXPECT_LT(d.kinetic, 1e-8 * d.potential) << ratio;
+  }
+}
+
+}  // namespace
+}  // namespace sluice::fluid
