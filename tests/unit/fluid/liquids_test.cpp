@@ -119,6 +119,25 @@ TEST_P(CollisionIn, IsThatOfOneLiquidWhereDensitiesAreEqual) {
     EXPECT_NEAR(states[0].velocity[k], states[1].velocity[k], 1e-10);
 }
 
+// As with one liquid: the same bits with two threads, and after a restart in the middle.
+TEST_P(CollisionIn, GoesOnToTheLastBit) {
+  Scene scene = collision(GetParam(), 10);
+  const auto solver = make_solver(scene.setup);
+  solver->start({});
+  const double dt = 0.5 * solver->largest_step(2.0);
+  for (int k = 0; k < 20; ++k) solver->step(dt, {});
+  std::vector<std::byte> state;
+  solver->write_state(state);
+  scene.setup.threads = 2;
+  const auto resumed = make_solver(scene.setup);
+  resumed->read_state(state);
+  for (const auto& each : {solver.get(), resumed.get()})
+    for (int k = 0; k < 20; ++k) each->step(dt, {});
+  EXPECT_EQ(solver->snapshot().velocity, resumed->snapshot().velocity);
+  EXPECT_EQ(solver->snapshot().density, resumed->snapshot().density);
+  EXPECT_EQ(solver->snapshot().liquid, resumed->snapshot().liquid);
+}
+
 // Of layers on a lattice, light over heavy, that start hydrostatically: the first acceleration is that of the
 // lattice's pair sums, 1.7 % of gravity at 2:1 and at most 5.2 %, with that of the heavy liquid's curved
 // pressure 8.7 %.
