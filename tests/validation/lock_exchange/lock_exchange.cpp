@@ -76,7 +76,7 @@ Case lock_exchange() {
           .reference = "Benjamin 1968",
           .resolutions = {10, 20, 40},
           .quick = {10},
-          .bound_resolution = 40,
+          .bound_resolution = 20,
           .run = run};
 }
 
