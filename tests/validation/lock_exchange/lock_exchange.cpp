@@ -74,7 +74,7 @@ Case lock_exchange() {
   return {.name = "lock_exchange",
           .title = "Lock exchange of liquids of 2:1 under a lid, particles over H",
           .reference = "Benjamin 1968",
-          .resolutions = {10, 20, 40},
+          .resolutions = {5, 10, 20},
           .quick = {10},
           .bound_resolution = 20,
           .run = run};

@@ -112,9 +112,9 @@ Case two_liquid_dam_break() {
   return {.name = "two_liquid_dam_break",
           .title = "Two dams of liquids of 2:1 break, to 0.95 s, particles over a",
           .reference = "Martin & Moyce 1952; Koshizuka & Oka 1996; Cueto-Felgueroso et al., section 7.1",
-          .resolutions = {10, 20, 40},
+          .resolutions = {5, 10, 20},
           .quick = {10},
-          .bound_resolution = 40,
+          .bound_resolution = 20,
           .run = [](int resolution, const std::vector<std::string>& overrides, int threads) {
             return run_two_liquid_dam_break(resolution, overrides, threads).outcome;
           }};
