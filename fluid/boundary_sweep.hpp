@@ -15,9 +15,10 @@ namespace sluice::fluid {
 // the contact line creeps. The ramp is half a spacing of static head wide, and never narrower than a
 // millionth of rho0 c0^2.
 template <int Dim, typename Kernel>
-double wetness(const Model<Dim, Kernel>& model, double head, double acceleration) {
+double wetness(const Model<Dim, Kernel>& model, double head, double acceleration, double relative_density) {
   const double c0 = model.eos.sound_speed();
-  const double scale = model.eos.rest_density() * (acceleration * model.spacing + 1e-6 * c0 * c0);
+  const double scale =
+      relative_density * model.eos.rest_density() * (acceleration * model.spacing + 1e-6 * c0 * c0);
   return std::clamp(0.5 + 2.0 * head / scale, 0.0, 1.0);
 }
 
@@ -44,11 +45,11 @@ Mat<Dim> boundary_stress(const Model<Dim, Kernel>& model, const Particles<Dim>& 
 
 // Sums over the fluid f near a boundary particle w:
 //   W (p_f + dp) and W (rho_f + dp/c0^2),   dp = rho_f (g - a_w) . n n . x_wf the hydrostatic continuation,
-//   W V_f,   W rho_f u^2/2 with u the speed of approach.
+//   W V_f,   W rho_f u^2/2 with u the speed of approach;   with several liquids W times the relative density.
 template <int Dim>
 struct NearState {
   Extrapolation<Dim, 2> state;  // pressure and density
-  double volume = 0, dynamic = 0;
+  double volume = 0, dynamic = 0, relative_density = 0;
 };
 
 // (g - a_w) . n n [m/s^2], across the surface.
@@ -78,7 +79,8 @@ double take_over(const Model<Dim, Kernel>& model, const NearState<Dim>& near, st
   const Vec<Dim> along = state.centroid() - boundary.surface(w).across * state.centroid();
   const Eigen::Vector2d at_w = state.mean() - state.slope(model.moment_floor) * along;
   const double acceleration = (model.gravity - boundary.acceleration(w)).norm();
-  const double wet = wetness(model, at_w[0] + near.dynamic * per_W, acceleration);
+  const double relative_density = near.relative_density > 0.0 ? near.relative_density * per_W : 1.0;
+  const double wet = wetness(model, at_w[0] + near.dynamic * per_W, acceleration, relative_density);
   boundary.pressure[w] = wet * std::max(0.0, at_w[0]);
   boundary.dilation[w] = wet * near.volume * per_W / model.first_volume;
   node.rho = at_w[1];
@@ -91,17 +93,24 @@ void extrapolate(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid,
                  std::span<const std::uint32_t> neighbors, std::size_t w, BoundaryParticles<Dim>& boundary) {
   const Vec<Dim> pull = pull_across(model, boundary, w);
   const double per_c2 = 1.0 / (model.eos.sound_speed() * model.eos.sound_speed());
+  const bool several = fluid.has_several_liquids();
   NearState<Dim> near;
   for (const std::uint32_t f : neighbors) {
     const Node<Dim>& n = fluid.node[f];
     const Vec<Dim> x_fw = n.x - boundary.node()[w].x;
     const double r2 = x_fw.squaredNorm();
     const double W = model.kernel.value(x_fw);
-    const double dp = -n.rho * pull.dot(x_fw);
+    double rho = n.rho;
+    if (several) {
+      const double relative_density = fluid.liquid_of(f).relative_density;
+      rho *= relative_density;
+      near.relative_density += W * relative_density;
+    }
+    const double dp = -rho * pull.dot(x_fw);
     const double approach = std::max(0.0, (boundary.velocity(w) - n.v).dot(x_fw));
     near.state.add(W, x_fw, {fluid.fit[f].floored ? 0.0 : fluid.pressure[f] + dp, n.rho + dp * per_c2});
     near.volume += W * n.volume;
-    near.dynamic += W * 0.5 * n.rho * approach * approach / (r2 + model.tiny_r2);
+    near.dynamic += W * 0.5 * rho * approach * approach / (r2 + model.tiny_r2);
   }
   const double wet = take_over(model, near, w, boundary);
   if (boundary.stress.empty()) return;

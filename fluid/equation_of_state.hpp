@@ -32,6 +32,11 @@ class EquationOfState {
     return rho0_ * std::pow(1.0 + 6.0 * rho0_ * head / (7.0 * kappa_), 1.0 / 6.0);
   }
 
+  // The head at which that density has the pressure p [J/kg].
+  [[nodiscard]] double head(double p) const {
+    return 7.0 * kappa_ / (6.0 * rho0_) * (std::pow(1.0 + p / kappa_, 6.0 / 7.0) - 1.0);
+  }
+
   // Work stored per mass [J/kg] between rho0 and rho: the integral of p/rho^2 drho.
   [[nodiscard]] double elastic_energy(double rho) const {
     const double x = rho / rho0_;

@@ -43,6 +43,11 @@ Snapshot GalerkinSolver<Dim, Kernel>::snapshot() const {
     s.density[i] = fluid_.node[k].rho;
     s.pressure[i] = fluid_.pressure[k];
   }
+  if (!fluid_.has_several_liquids()) return s;
+  for (std::size_t i = 0; i < n; ++i) {
+    s.liquid.push_back(fluid_.liquid[order[i]]);
+    s.density[i] *= fluid_.relative_density(order[i]);
+  }
   return s;
 }
 
@@ -56,7 +61,7 @@ Diagnostics GalerkinSolver<Dim, Kernel>::diagnostics() const {
     const Eigen::Vector3d momentum = fluid_.mass[i] * widen<Dim>(node.v);
     d.kinetic += 0.5 * fluid_.mass[i] * node.v.squaredNorm();
     d.potential -= fluid_.mass[i] * model_.gravity.dot(node.x);
-    d.elastic += fluid_.mass[i] * model_.eos.elastic_energy(node.rho);
+    d.elastic += fluid_.mass[i] / fluid_.relative_density(i) * model_.eos.elastic_energy(node.rho);
     d.momentum += momentum;
     d.angular_momentum += widen<Dim>(node.x).cross(momentum);
     d.max_speed = larger(d.max_speed, node.v.norm());

@@ -90,6 +90,11 @@ class GalerkinSolver final : public Solver {
   }
   void compute_single_gradients();
   void compute_single_forces();
+  // Of several liquids, in galerkin_liquids.hpp.
+  void separate_liquids();
+  void separate_at_interface(std::size_t i);
+  void compute_own_stress();
+  void compute_liquid_forces();
   void find_films();
   void spread_crowds(double dt);
   void compute_reactions();

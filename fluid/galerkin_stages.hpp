@@ -8,6 +8,7 @@
 
 #include "fluid/damped_viscosity.hpp"
 #include "fluid/galerkin_boundary.hpp"
+#include "fluid/galerkin_liquids.hpp"
 #include "fluid/galerkin_results.hpp"
 #include "fluid/galerkin_rollback.hpp"
 #include "fluid/galerkin_solver.hpp"
@@ -32,16 +33,17 @@ inline constexpr double kSkin = 0.1;
 
 // Whether the sweeps go by groups of particles (group_stages.hpp) and not by single ones.
 template <int Dim, typename Kernel>
-bool goes_by_groups(const Formulation& formulation) {
+bool goes_by_groups(const Setup& setup) {
+  const Formulation& formulation = setup.formulation;
   return GalerkinSolver<Dim, Kernel>::kHasGroups && formulation.internal_force == InternalForce::galerkin &&
          formulation.viscous_force == ViscousForce::stress && formulation.mass == Mass::physical &&
          formulation.interpolated_motion == 0.0 && !formulation.initial_parameters &&
-         !formulation.tension_control;
+         !formulation.tension_control && setup.liquids.empty();
 }
 
 template <int Dim, typename Kernel>
 SearchPlan search_plan(const Setup& setup) {
-  const bool groups = goes_by_groups<Dim, Kernel>(setup.formulation);
+  const bool groups = goes_by_groups<Dim, Kernel>(setup);
   const bool singles = !groups || setup.formulation.shifting > 0.0;
   return {.singles = singles,
           .wall_singles = singles || setup.has_viscous_stress(),
@@ -60,6 +62,12 @@ Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos) {
     const double rho = eos.density(given.pressure[i]);
     fluid.mass[i] = rho * given.volume;
     fluid.node[i] = {narrow<Dim>(given.position[i]), narrow<Dim>(given.velocity[i]), given.volume, rho};
+  }
+  fluid.liquid = given.liquid;
+  fluid.liquids = liquid_constants(setup);
+  if (fluid.has_several_liquids()) {
+    fluid.own.resize(n);
+    for (std::size_t i = 0; i < n; ++i) fluid.mass[i] *= fluid.relative_density(i);
   }
   fluid.id.resize(n);
   std::iota(fluid.id.begin(), fluid.id.end(), 0u);
@@ -97,7 +105,7 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       search_(model_.kernel.support() + model_.extra_reach, stages::kSkin * model_.kernel.support(),
               setup.period, stages::search_plan<Dim, Kernel>(setup), setup.mirrors),
       openings_(setup, model_.kernel.support() + model_.extra_reach, stages::kSkin * model_.kernel.support()),
-      by_groups_(stages::goes_by_groups<Dim, Kernel>(setup.formulation)),
+      by_groups_(stages::goes_by_groups<Dim, Kernel>(setup)),
       period_(setup.period),
       mirror_guard_(setup.mirrors, model_),
       shifting_(setup.formulation.shifting),
@@ -257,6 +265,7 @@ void GalerkinSolver<Dim, Kernel>::compute_gradients() {
   if constexpr (kHasGroups)
     if (by_groups_) group_stages().compute_gradients(boundary_, fluid_);
   if (!by_groups_) compute_single_gradients();
+  if (fluid_.has_several_liquids()) separate_liquids();
   // Corrected SPH threw a single particle of a splash out by it.
   if (Operator<Dim, Kernel>::kIsDefault && !bodies_.empty()) find_films();
   if (!boundary_.sticks()) return;
@@ -347,7 +356,7 @@ void GalerkinSolver<Dim, Kernel>::compute_stress() {
     fluid_.pressure[i] = model_.eos.pressure(fluid_.node[i].rho);
     Mat<Dim> sigma = -fluid_.pressure[i] * Mat<Dim>::Identity();
     if constexpr (Rule::kIsIsobaric) sigma.setZero();
-    if (!fluid_.stress.empty()) {
+    if (!fluid_.stress.empty() && !fluid_.has_several_liquids()) {
       // Where G is not the exact inverse, a shear stress would exert a moment: spray has none.
       fluid_.stress[i] =
           fluid_.fit[i].floored ? Mat<Dim>::Zero() : viscous_stress<Dim>(model_.mu, fluid_.source[i].strain);
@@ -360,6 +369,7 @@ void GalerkinSolver<Dim, Kernel>::compute_stress() {
     else
       Rule::set_source(quadrature_volume(i), sigma, coefficients_[i], fluid_, i);
   });
+  if (fluid_.has_several_liquids() && !fluid_.stress.empty()) compute_own_stress();
   search_.halo().refresh_sources(fluid_);
 }
 
@@ -374,6 +384,7 @@ void GalerkinSolver<Dim, Kernel>::compute_forces() {
 
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::compute_single_forces() {
+  if (fluid_.has_several_liquids()) return compute_liquid_forces();
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
     ForceSweep<Dim, Kernel> sweep(model_, fluid_, i);
     sweep.gather_fluid(search_.fluid_near_fluid(i));
@@ -408,7 +419,11 @@ double GalerkinSolver<Dim, Kernel>::inertia(std::size_t i) const {
 // V = m/rho, for the next step: until here sweep 2 needed the volumes of sweep 1.
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::update_volumes() {
-  if (weights_ == Weights::kernel_and_volume)
+  if (fluid_.has_several_liquids())
+    parallel_.for_each(fluid_.size(), [&](std::size_t i) {
+      fluid_.node[i].volume = fluid_.mass[i] / (fluid_.node[i].rho * fluid_.relative_density(i));
+    });
+  else if (weights_ == Weights::kernel_and_volume)
     parallel_.for_each(fluid_.size(),
                        [&](std::size_t i) { fluid_.node[i].volume = fluid_.mass[i] / fluid_.node[i].rho; });
   for_active_boundary([&](std::size_t w) {
@@ -418,9 +433,16 @@ void GalerkinSolver<Dim, Kernel>::update_volumes() {
 
 template <int Dim, typename Kernel>
 double GalerkinSolver<Dim, Kernel>::largest_step(double max_speed) const {
-  const double acoustic = model_.h / (model_.eos.sound_speed() + max_speed);
-  const double viscous =
-      model_.h * model_.h * model_.eos.rest_density() / (model_.artificial_viscosity + 1e-300);
+  double sound_speed = model_.eos.sound_speed();
+  double viscosity = model_.artificial_viscosity / model_.eos.rest_density();  // kinematic
+  for (const LiquidConstants& liquid : fluid_.liquids) {
+    sound_speed = std::max(sound_speed, model_.eos.sound_speed() / std::sqrt(liquid.relative_density));
+    // The mean friction is up to twice the smaller one.
+    viscosity = std::max(viscosity, (liquid.pair_viscosity + liquid.friction) /
+                                        (liquid.relative_density * model_.eos.rest_density()));
+  }
+  const double acoustic = model_.h / (sound_speed + max_speed);
+  const double viscous = model_.h * model_.h / (viscosity + 1e-300);
   return std::min(courant_ * std::min(acoustic, viscous), body_step_);
 }
 

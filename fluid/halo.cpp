@@ -60,6 +60,7 @@ void Halo<Dim>::reflect(const Side& side, double mass, Node<Dim>& node) {
 template <int Dim>
 void Halo<Dim>::remove(Particles<Dim>& fluid) {
   fluid.node.resize(fluid.size());
+  if (!fluid.liquid.empty()) fluid.liquid.resize(fluid.size());
 }
 
 // Axis by axis, images of images included, which fills the corners.
@@ -98,6 +99,10 @@ void Halo<Dim>::append(Particles<Dim>& fluid, const std::vector<std::uint32_t>& 
   if (!fluid.stress.empty()) fluid.stress.resize(all);
   if (!fluid.slope_source.empty()) fluid.slope_source.resize(all);
   if (!fluid.point_source.empty()) fluid.point_source.resize(Particles<Dim>::kPoints * all);
+  if (fluid.has_several_liquids()) {
+    fluid.own.resize(all);
+    for (const Image& image : image_) fluid.liquid.push_back(fluid.liquid[image.of]);
+  }
   refresh_nodes(fluid);
 }
 
@@ -105,6 +110,17 @@ template <int Dim>
 void Halo<Dim>::refresh_nodes(Particles<Dim>& fluid) const {
   for (std::size_t k = 0; k < image_.size(); ++k)
     fluid.node[fluid.size() + k] = image_[k].node(fluid.node[image_[k].of]);
+}
+
+template <int Dim>
+void Halo<Dim>::refresh_fits(Particles<Dim>& fluid) const {
+  for (std::size_t k = 0; k < image_.size(); ++k) {
+    const Image& image = image_[k];
+    Fit<Dim>& fit = fluid.fit[fluid.size() + k];
+    fit = fluid.fit[image.of];
+    fit.g = image.vector(fit.g);
+    fit.G = image.tensor(fit.G);
+  }
 }
 
 template <int Dim>
@@ -121,6 +137,11 @@ void Halo<Dim>::refresh_sources(Particles<Dim>& fluid) const {
     fluid.source[to] = {image.vector(source.s), image.tensor(source.S), image.tensor(source.strain),
                         image.vector(source.grad_rho)};
     if (!fluid.stress.empty()) fluid.stress[to] = image.tensor(fluid.stress[image.of]);
+    if (fluid.has_several_liquids()) {
+      const OwnLiquid<Dim>& own = fluid.own[image.of];
+      fluid.own[to].s = image.vector(own.s);
+      fluid.own[to].S = image.tensor(own.S);
+    }
     if (!fluid.slope_source.empty()) {
       const SlopeSource<Dim>& slope = fluid.slope_source[image.of];
       fluid.slope_source[to] = {image.tensor(slope.sigma_V), slope.a, image.vector(slope.b)};

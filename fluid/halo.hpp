@@ -44,6 +44,7 @@ class Halo {
 
   // Copies to the images what moved, and what sweep 1 and the stress left.
   void refresh_nodes(Particles<Dim>& fluid) const;
+  void refresh_fits(Particles<Dim>& fluid) const;
   void refresh_sources(Particles<Dim>& fluid) const;
 
   auto state() { return std::tie(image_); }

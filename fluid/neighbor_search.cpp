@@ -39,6 +39,7 @@ void sort(Particles<Dim>& fluid, const std::vector<std::uint32_t>& order) {
   permute(fluid.density_rate, order);
   permute(fluid.id, order);
   permute(fluid.opening, order);
+  permute(fluid.liquid, order);
 }
 
 }  // namespace

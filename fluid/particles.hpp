@@ -4,8 +4,8 @@
 #include <tuple>
 #include <vector>
 
+#include "fluid/liquids.hpp"
 #include "fluid/moments.hpp"
-#include "fluid/setup.hpp"
 #include "fluid/types.hpp"
 
 namespace sluice::fluid {
@@ -16,7 +16,7 @@ struct Node {
   Vec<Dim> x = Vec<Dim>::Zero();  // [m]
   Vec<Dim> v = Vec<Dim>::Zero();  // [m/s]
   double volume = 0;              // V = m/rho [m^Dim]
-  double rho = 0;                 // [kg/m^3]
+  double rho = 0;  // [kg/m^3]; of several liquids, that which the reference has at the same pressure
 };
 
 // What sweep 1 leaves for sweep 2 at a fluid particle k: its fit, its stress and its gradients.
@@ -43,9 +43,19 @@ struct PointSource {
   Mat<Dim> S = Mat<Dim>::Zero();
 };
 
+// What several liquids need in addition at a particle with another liquid in its support
+// (liquid_interface.hpp): the fit of its own liquid, and the viscous stress with it as in Source.
+template <int Dim>
+struct OwnLiquid {
+  bool is_at_interface = false;
+  Fit<Dim> fit;
+  Vec<Dim> s = Vec<Dim>::Zero();
+  Mat<Dim> S = Mat<Dim>::Zero();
+};
+
 // The state of the fluid, in the order of the last sort. Arrays of size() particles; node, pressure, stress,
 // fit, source, slope_source and point_source go on with the images beyond periodic and mirrored sides
-// (halo.hpp).
+// (halo.hpp), and so do liquid and own.
 template <int Dim>
 struct Particles {
   std::vector<double> mass;            // [kg]
@@ -55,6 +65,9 @@ struct Particles {
   std::vector<std::uint32_t> id;       // index in Setup::fluid; rising numbers for what came in later
   // Of the buffer behind an opening, its number + 1, else 0; empty without openings (openings.hpp).
   std::vector<std::uint8_t> opening;
+  // Number in liquids; both are empty with one liquid.
+  std::vector<std::uint8_t> liquid;
+  std::vector<LiquidConstants> liquids;
   // Of the present step:
   std::vector<double> pressure;    // [Pa]
   std::vector<double> divergence;  // of the velocity [1/s]
@@ -66,14 +79,20 @@ struct Particles {
   // Of the stress points, 2^Dim for each particle; empty without them.
   static constexpr std::size_t kPoints = std::size_t{1} << Dim;
   std::vector<PointSource<Dim>> point_source;
+  std::vector<OwnLiquid<Dim>> own;  // empty with one liquid
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
+  [[nodiscard]] bool has_several_liquids() const { return !liquids.empty(); }
+  [[nodiscard]] const LiquidConstants& liquid_of(std::size_t i) const { return liquids[liquid[i]]; }
+  [[nodiscard]] double relative_density(std::size_t i) const {
+    return has_several_liquids() ? liquid_of(i).relative_density : 1.0;
+  }
   [[nodiscard]] bool is_buffer(std::size_t i) const { return !opening.empty() && opening[i] != 0; }
 
   // What a run changes, here as in all that has it: state_bytes.hpp.
   auto state() {
-    return std::tie(mass, node, acceleration, density_rate, id, opening, pressure, divergence, L, stress, fit,
-                    source, slope_source, point_source);
+    return std::tie(mass, node, acceleration, density_rate, id, opening, liquid, pressure, divergence, L,
+                    stress, fit, source, slope_source, point_source, own);
   }
 };
 

@@ -40,7 +40,8 @@ std::vector<std::size_t> near_line(const ProbedFluid& fluid, const Eigen::Vector
 }
 
 double volume(const ProbedFluid& fluid, std::size_t i) {
-  return fluid.particle_mass / fluid.state.density[i];
+  const std::size_t liquid = fluid.state.liquid.empty() ? 0 : fluid.state.liquid[i];
+  return fluid.particle_mass[liquid] / fluid.state.density[i];
 }
 
 double wetness(const ProbedFluid& fluid, const std::vector<std::size_t>& particles,

@@ -7,7 +7,7 @@ namespace sluice::fluid {
 // What is needed to look into a state between its particles.
 struct ProbedFluid {
   const Snapshot& state;
-  double particle_mass;  // [kg], per metre of depth in 2D
+  std::span<const double> particle_mass;  // of every liquid at zero pressure [kg], per metre of depth in 2D
   double smoothing;      // h [m]
   int dimension;
 };

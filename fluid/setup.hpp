@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -74,6 +75,7 @@ struct FluidParticles {
   std::vector<Eigen::Vector3d> position;  // [m]
   std::vector<Eigen::Vector3d> velocity;  // [m/s]
   std::vector<double> pressure;           // [Pa]; sets the density by the equation of state, CF (64)
+  std::vector<std::uint8_t> liquid;       // number in Setup::liquids; empty where those are
   double volume = 0;                      // [m^3], [m^2] in 2D
 };
 
@@ -128,7 +130,9 @@ struct Setup {
   Eigen::Vector3d gravity{0, 0, 0};
   Period period;
   Mirrors mirrors;
-  Liquid liquid;
+  Liquid liquid;  // of several the heaviest
+  // Where there are several, all of them, equally stiff: density * sound_speed^2 is the same.
+  std::vector<Liquid> liquids;
   Formulation formulation;
   FluidParticles fluid;
   Boundary walls;                   // at rest, world frame
@@ -139,7 +143,9 @@ struct Setup {
   int threads = 1;
 
   [[nodiscard]] bool has_viscous_stress() const {
-    return liquid.viscosity > 0.0 && formulation.viscous_force == ViscousForce::stress;
+    return (liquid.viscosity > 0.0 ||
+            std::any_of(liquids.begin(), liquids.end(), [](const Liquid& l) { return l.viscosity > 0.0; })) &&
+           formulation.viscous_force == ViscousForce::stress;
   }
 };
 

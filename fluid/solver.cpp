@@ -1,6 +1,7 @@
 #include "fluid/solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -58,6 +59,34 @@ void check_openings(const Setup& setup) {
   for (const Opening& opening : setup.openings) check_opening(setup, opening);
 }
 
+void check_liquids(const Setup& setup) {
+  const std::size_t numbers = setup.liquids.empty() ? 0 : setup.fluid.position.size();
+  require(setup.fluid.liquid.size() == numbers, "liquids of particles",
+          static_cast<double>(setup.fluid.liquid.size()),
+          "with several liquids each particle has a number, else none");
+  if (setup.liquids.empty()) return;
+  const double stiffness = setup.liquid.density * setup.liquid.sound_speed * setup.liquid.sound_speed;
+  for (const Liquid& liquid : setup.liquids) {
+    require(liquid.density > 0 && liquid.density <= setup.liquid.density, "liquid density [kg/m^3]",
+            liquid.density, "it must be positive, and that of Setup::liquid the largest");
+    const double own = liquid.density * liquid.sound_speed * liquid.sound_speed;
+    require(std::abs(own / stiffness - 1) < 1e-9, "density * sound_speed^2 [Pa]", own,
+            "it must be that of Setup::liquid, for one pressure to mean one compression");
+    require(liquid.viscosity >= 0, "viscosity [Pa s]", liquid.viscosity, "it must not be negative");
+  }
+  for (const std::uint8_t number : setup.fluid.liquid)
+    require(number < setup.liquids.size(), "liquid of a particle", number,
+            "it must be one of Setup::liquids");
+  const Formulation& f = setup.formulation;
+  require(f.kernel == KernelKind::wendland && f.approximation == Approximation::mls &&
+              f.weights == Weights::kernel_and_volume && f.internal_force == InternalForce::galerkin &&
+              f.viscous_force == ViscousForce::stress && f.integrator == Integrator::kick_drift_kick &&
+              f.quadrature == Quadrature::nodal && f.mass == Mass::physical && f.interpolated_motion == 0 &&
+              f.shifting == 0 && !f.tension_control && setup.openings.empty(),
+          "number of liquids", static_cast<double>(setup.liquids.size()),
+          "several are built for the default formulation without shifting, tension control and openings");
+}
+
 void check(const Setup& setup) {
   require(setup.dimension == 2 || setup.dimension == 3, "dimension", setup.dimension, "it must be 2 or 3");
   require(setup.spacing > 0, "spacing [m]", setup.spacing, "it must be positive");
@@ -66,6 +95,7 @@ void check(const Setup& setup) {
   require(setup.liquid.sound_speed > 0, "speed of sound [m/s]", setup.liquid.sound_speed,
           "it must be positive");
   require(setup.liquid.viscosity >= 0, "viscosity [Pa s]", setup.liquid.viscosity, "it must not be negative");
+  check_liquids(setup);
   const Formulation& f = setup.formulation;
   require(f.smoothing >= 1, "smoothing h/dx", f.smoothing, "at least 1, else neighbours are too few");
   require(f.courant > 0 && f.courant <= 1, "courant", f.courant, "it must be in (0, 1]");

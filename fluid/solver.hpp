@@ -13,11 +13,12 @@ namespace sluice::fluid {
 // Copy of the state of the particles in the tank by rising number, whatever the solver's own order is: the
 // order of FluidParticles, then what came in through openings. Numbers are not used again.
 struct Snapshot {
-  std::vector<double> position;   // [n, 3]
-  std::vector<double> velocity;   // [n, 3]
-  std::vector<double> density;    // [n]
-  std::vector<double> pressure;   // [n]
-  std::vector<std::uint32_t> id;  // [n] number; 0 to n - 1 without openings
+  std::vector<double> position;      // [n, 3]
+  std::vector<double> velocity;      // [n, 3]
+  std::vector<double> density;       // [n]
+  std::vector<double> pressure;      // [n]
+  std::vector<std::uint32_t> id;     // [n] number; 0 to n - 1 without openings
+  std::vector<std::uint8_t> liquid;  // [n] number in Setup::liquids; empty with one liquid
 };
 
 // What goes through an opening, per metre of depth in 2D.
@@ -42,7 +43,7 @@ struct Diagnostics {
   std::vector<Passage> openings;                               // as in Setup
 };
 
-// One liquid, walls and moving bodies, stepped explicitly. Holds no global state.
+// Liquids, walls and moving bodies, stepped explicitly. Holds no global state.
 class Solver {
  public:
   virtual ~Solver() = default;

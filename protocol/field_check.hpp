@@ -47,6 +47,7 @@ void check_coupling(const Scene& scene, FieldCheck& check);
 void check_domain(const Scene& scene, FieldCheck& check);
 // Whether it is one, of the scene's dimension.
 bool check_side(Side side, const std::string& field, FieldCheck& check);
+void check_other_liquids(const Scene& scene, FieldCheck& check);
 void check_openings(const Scene& scene, FieldCheck& check);
 void check_fluid(const FluidRegion& region, const std::string& field, FieldCheck& check);
 void check_bodies(const Scene& scene, FieldCheck& check);

@@ -25,6 +25,8 @@ std::vector<ParticleArray> particle_arrays(const Scene& scene) {
   add(VELOCITY, "fluid/velocity", 3);
   add(DENSITY, "fluid/density", 1);
   add(PRESSURE, "fluid/pressure", 1);
+  if (scene.other_liquid_size() > 0 && is_wanted(output, LIQUID))
+    arrays.push_back({"fluid/liquid", LIQUID, Array::INT64, 1});
   return arrays;
 }
 

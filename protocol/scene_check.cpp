@@ -86,6 +86,7 @@ std::vector<Problem> check_fields(const Scene& scene) {
   check_size(scene, check);
   check_run(scene, check);
   check_liquid(scene.liquid(), check);
+  check_other_liquids(scene, check);
   check_output(scene, check);
   check_formulation(scene, check);
   check_coupling(scene, check);

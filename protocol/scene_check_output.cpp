@@ -21,12 +21,16 @@ void check_rate(const Scene& scene, FieldCheck& check) {
                              scene.duration(), kHighestRate, kMostFrames));
 }
 
-void check_fields(const Output& output, FieldCheck& check) {
-  for (int i = 0; i < output.field_size(); ++i)
-    if (output.field(i) < POSITION || output.field(i) > PRESSURE)
-      check.report(fmt::format("output.field[{}]", i),
-                   fmt::format("{} is none; give POSITION, VELOCITY, DENSITY or PRESSURE",
-                               static_cast<int>(output.field(i))));
+void check_fields(const Scene& scene, FieldCheck& check) {
+  const Output& output = scene.output();
+  for (int i = 0; i < output.field_size(); ++i) {
+    const std::string field = fmt::format("output.field[{}]", i);
+    if (output.field(i) < POSITION || output.field(i) > LIQUID)
+      check.report(field, fmt::format("{} is none; give POSITION, VELOCITY, DENSITY, PRESSURE or LIQUID",
+                                      static_cast<int>(output.field(i))));
+    if (output.field(i) == LIQUID && scene.other_liquid().empty())
+      check.report(field, "LIQUID is the same for all particles of a scene with one liquid; leave it out");
+  }
   if (output.precision() < PRECISION_UNSPECIFIED || output.precision() > FLOAT64)
     check.report("output.precision",
                  fmt::format("{} is none; give FLOAT32 or FLOAT64", static_cast<int>(output.precision())));
@@ -46,7 +50,7 @@ void check_region(const Span& region, FieldCheck& check) {
 
 void check_output(const Scene& scene, FieldCheck& check) {
   check_rate(scene, check);
-  check_fields(scene.output(), check);
+  check_fields(scene, check);
   const bool is_plane_or_space = check.dimension() == 2 || check.dimension() == 3;
   if (scene.output().has_region() && is_plane_or_space) check_region(scene.output().region(), check);
 }

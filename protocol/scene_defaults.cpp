@@ -4,6 +4,7 @@
 
 #include "protocol/field_check.hpp"
 #include "protocol/formula.hpp"
+#include "protocol/liquids.hpp"
 #include "protocol/scene_check.hpp"
 
 namespace sluice::protocol {
@@ -91,7 +92,9 @@ void fill_liquid(Scene& scene) {
     const double speed = expected_speed(scene);
     liquid.set_max_speed(speed > 0 ? speed : liquid.sound_speed() / kMachInverse);
   }
-  if (!liquid.has_sound_speed()) liquid.set_sound_speed(kMachInverse * liquid.max_speed());
+  if (!liquid.has_sound_speed())
+    liquid.set_sound_speed(kMachInverse * liquid.max_speed() *
+                           std::sqrt(heaviest_density(scene) / liquid.density()));
 }
 
 void fill_opening(Opening& opening, const Domain& domain) {
@@ -115,13 +118,12 @@ void fill_body(Body& body, int dimension) {
   }
 }
 
-// Crowds sink where there is gravity; they are measured with the fit of MLS.
-double default_spreading(const Formulation& formulation, bool has_gravity) {
-  const bool has_fit = formulation.approximation() == MLS && formulation.quadrature() == NODAL;
-  return has_fit && has_gravity ? 0.01 : 0.0;
+// Crowding is measured with the fit of MLS.
+bool has_fit(const Formulation& formulation) {
+  return formulation.approximation() == MLS && formulation.quadrature() == NODAL;
 }
 
-void fill_formulation(Formulation& formulation, unsigned dimension, bool periodic, bool has_gravity) {
+void fill_formulation(Formulation& formulation, unsigned dimension, bool shifted, bool spread) {
   if (!formulation.has_smoothing()) formulation.set_smoothing(dimension == 2 ? 1.45 : 1.49);
   if (!formulation.has_density_diffusion()) formulation.set_density_diffusion(0.1);
   if (!formulation.has_artificial_viscosity()) formulation.set_artificial_viscosity(0.02);
@@ -138,17 +140,19 @@ void fill_formulation(Formulation& formulation, unsigned dimension, bool periodi
   if (!formulation.has_interpolated_motion()) formulation.set_interpolated_motion(0);
   if (!formulation.has_initial_parameters()) formulation.set_initial_parameters(false);
   if (!formulation.has_tension_control()) formulation.set_tension_control(false);
-  if (!formulation.has_shifting()) formulation.set_shifting(periodic ? 6 : 0);
-  if (!formulation.has_spreading()) formulation.set_spreading(default_spreading(formulation, has_gravity));
+  if (!formulation.has_shifting()) formulation.set_shifting(shifted ? 6 : 0);
+  if (!formulation.has_spreading()) formulation.set_spreading(spread && has_fit(formulation) ? 0.01 : 0);
 }
 
-void fill_output(Output& output, double duration) {
+void fill_output(Output& output, double duration, bool several_liquids) {
   constexpr double kFrames = 100;
   if (!output.has_rate()) output.set_rate(kFrames / duration);
   if (!output.has_particles_every()) output.set_particles_every(1);
   if (output.precision() == PRECISION_UNSPECIFIED) output.set_precision(FLOAT64);
-  if (output.field().empty())
+  if (output.field().empty()) {
     for (const ParticleField field : {POSITION, VELOCITY, DENSITY, PRESSURE}) output.add_field(field);
+    if (several_liquids) output.add_field(LIQUID);
+  }
 }
 
 void fill_coupling(Coupling& coupling) {
@@ -179,9 +183,10 @@ Scene with_defaults(const Scene& scene) {
   fill_liquid(full);
   for (auto& opening : *full.mutable_opening()) fill_opening(opening, full.domain());
   for (auto& body : *full.mutable_body()) fill_body(body, dimension);
-  fill_output(*full.mutable_output(), full.duration());
-  fill_formulation(*full.mutable_formulation(), full.dimension(), full.domain().periodic_size() > 0,
-                   norm(full.gravity()) > 0);
+  const bool several = full.other_liquid_size() > 0;
+  fill_output(*full.mutable_output(), full.duration(), several);
+  fill_formulation(*full.mutable_formulation(), full.dimension(),
+                   full.domain().periodic_size() > 0 && !several, norm(full.gravity()) > 0 && !several);
   fill_coupling(*full.mutable_coupling());
   return full;
 }

@@ -11,7 +11,7 @@ namespace sluice::server {
 
 struct CheckpointOptions {
   std::filesystem::path file{};  // empty: none are written
-  double every = 0;            // simulated [s]; 0: every five minutes of wall time
+  double every = 0;              // simulated [s]; 0: every five minutes of wall time
 };
 
 // The state at the last output, kept in memory, and the times at which it goes to disk. Knows no socket.

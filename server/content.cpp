@@ -71,7 +71,7 @@ Message welcome(const Simulation& simulation, const protocol::Endpoint& endpoint
   content.set_publish_endpoint(endpoint.publish);
   content.set_record_endpoint(endpoint.record);
   content.set_sound_speed(simulation.scene.liquid().sound_speed());
-  content.set_particle_mass(simulation.particle_mass);
+  content.set_particle_mass(simulation.particle_masses[0]);
   if (simulation.has_free_body()) {
     *content.mutable_coupling() = simulation.coupling.coupling;
     for (const BodyStability& body : simulation.coupling.stability) *content.add_stability() = body;

@@ -19,7 +19,7 @@ Eigen::Vector3d vector_of(const std::vector<double>& values, std::size_t particl
 
 }  // namespace
 
-Guard::Guard(const Scene& scene) : scene_(scene) {
+Guard::Guard(const Scene& scene) : scene_(scene), liquids_(protocol::liquids(scene)) {
   const Eigen::Vector3d lower = to_vector(scene.domain().min()), upper = to_vector(scene.domain().max());
   min_ = lower - (upper - lower);
   max_ = upper + (upper - lower);
@@ -51,7 +51,7 @@ std::string Guard::fault(const fluid::Snapshot& state, std::size_t i) const {
     return fmt::format("its state is not finite (speed {:g} m/s, density {:g} kg/m^3, pressure {:g} Pa)",
                        speed, density, state.pressure[i]);
   }
-  const double rho0 = scene_.liquid().density(), sound_speed = scene_.liquid().sound_speed();
+  const auto& [rho0, viscosity, sound_speed] = liquids_[state.liquid.empty() ? 0 : state.liquid[i]];
   if (std::abs(density / rho0 - 1) > kLargestCompression) {
     return fmt::format("its density {:g} kg/m^3 is off {:g} kg/m^3 by more than half", density, rho0);
   }

@@ -3,12 +3,13 @@
 #include <span>
 
 #include "fluid/solver.hpp"
-#include "scene.pb.h"
+#include "protocol/liquids.hpp"
 
 namespace sluice::server {
 
 // Ends a run that has gone wrong before it can do harm. A particle's state must be finite; its density within
-// half of rho0; its speed below that of sound; its place no further outside the tank than the tank is large.
+// half of its liquid's rho0; its speed below that of sound; its place no further outside the tank than the
+// tank is large.
 class Guard {
  public:
   explicit Guard(const Scene& scene);
@@ -22,6 +23,7 @@ class Guard {
   [[nodiscard]] std::string fault(const fluid::Snapshot& state, std::size_t particle) const;
 
   const Scene& scene_;
+  std::vector<protocol::LiquidProperties> liquids_;
   Eigen::Vector3d min_, max_;  // the tank grown by its size on every side [m]
 };
 

@@ -2,14 +2,58 @@
 
 #include <fmt/format.h>
 
-#include "fluid/equation_of_state.hpp"
+#include "protocol/liquids.hpp"
 #include "server/geometry.hpp"
 
 namespace sluice::server {
 
+namespace {
+
+fluid::EquationOfState equation_of(const Scene& scene, const FluidRegion& region) {
+  const protocol::LiquidProperties liquid =
+      protocol::liquids(scene)[protocol::liquid_of(region, scene).value()];
+  return {liquid.density, liquid.sound_speed};
+}
+
+// g H of a region's highest point.
+double top(const FluidRegion& given, const Eigen::Vector3d& gravity) {
+  const Region region = to_region(given);
+  return support(region.shape, -gravity) - gravity.dot(region.center);
+}
+
+bool holds(const FluidRegion& given, const Eigen::Vector3d& x, int dimension) {
+  const Region region = to_region(given);
+  return fluid::signed_distance(region.shape, x - region.center, dimension) < 0;
+}
+
+// Hydrostatic pressure of region r at x: with the density that the pressure makes, below the pressure at the
+// region's highest level, which is zero or that of the region that stands there above x. CF (65) has the
+// pressure of an incompressible column, with which the start is not quite at rest.
+double hydrostatic_pressure(const Scene& scene, int r, const fluid::EquationOfState& eos,
+                            const Eigen::Vector3d& gravity, const Eigen::Vector3d& x) {
+  const double g_height = top(scene.fluid(r), gravity);
+  if (scene.other_liquid().empty()) return eos.pressure(eos.hydrostatic_density(g_height + gravity.dot(x)));
+  const Eigen::Vector3d up = -gravity.normalized();
+  const Eigen::Vector3d level = x + (g_height / gravity.norm() - up.dot(x)) * up;
+  double on_top = 0;
+  for (int other = 0; other < scene.fluid_size(); ++other) {
+    const FluidRegion& region = scene.fluid(other);
+    if (other == r || !region.hydrostatic() || top(region, gravity) <= g_height ||
+        !holds(region, level + 1e-3 * scene.spacing() * up, static_cast<int>(scene.dimension())))
+      continue;
+    on_top = hydrostatic_pressure(scene, other, equation_of(scene, region), gravity, level);
+  }
+  return eos.pressure(eos.hydrostatic_density(eos.head(on_top) + g_height + gravity.dot(x)));
+}
+
+}  // namespace
+
 InitialFields::InitialFields(const Scene& scene, int region)
     : scene_(scene),
       region_(scene.fluid(region)),
+      number_(region),
+      eos_(equation_of(scene, scene.fluid(region))),
+      gravity_(to_vector(scene.gravity())),
       displacement_(parse(fmt::format("fluid[{}].displacement", region), region_.displacement())),
       velocity_(parse(fmt::format("fluid[{}].velocity_field", region), region_.velocity_field())),
       pressure_(parse(fmt::format("fluid[{}].pressure", region), region_.pressure())) {}
@@ -48,27 +92,18 @@ Eigen::Vector3d InitialFields::velocity(const Eigen::Vector3d& x) const {
 }
 
 double InitialFields::pressure(const Eigen::Vector3d& x) const {
-  if (region_.pressure().empty()) return region_.hydrostatic() ? hydrostatic(x) : 0;
-  const fluid::EquationOfState eos(scene_.liquid().density(), scene_.liquid().sound_speed());
+  if (region_.pressure().empty()) {
+    if (!region_.hydrostatic() || gravity_.isZero(0)) return 0;
+    return hydrostatic_pressure(scene_, number_, eos_, gravity_, x);
+  }
   const double p = pressure_.at(x);
-  if (p <= -eos.kappa())
+  if (p <= -eos_.kappa())
     throw protocol::SceneError(
         pressure_.field,
         fmt::format("formula '{}' is {:g} Pa at ({:g}, {:g}, {:g}) m; the liquid has no density for tension "
                     "beyond density * sound_speed^2 / 7, {:g} Pa: take a larger liquid.sound_speed",
-                    region_.pressure(), p, x.x(), x.y(), x.z(), eos.kappa()));
+                    region_.pressure(), p, x.x(), x.y(), x.z(), eos_.kappa()));
   return p;
-}
-
-// With the density that the pressure makes: z the height of x against gravity, H that of the region's highest
-// point. CF (65) has the pressure of an incompressible column, with which the start is not quite at rest.
-double InitialFields::hydrostatic(const Eigen::Vector3d& x) const {
-  const Eigen::Vector3d g = to_vector(scene_.gravity());
-  if (g.isZero(0)) return 0;
-  const Region region = to_region(region_);
-  const double g_height = support(region.shape, -g) - g.dot(region.center);  // g H
-  const fluid::EquationOfState eos(scene_.liquid().density(), scene_.liquid().sound_speed());
-  return eos.pressure(eos.hydrostatic_density(g_height + g.dot(x)));
 }
 
 }  // namespace sluice::server

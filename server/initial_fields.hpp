@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "fluid/equation_of_state.hpp"
 #include "protocol/formula.hpp"
 #include "protocol/scene_file.hpp"
 
@@ -30,10 +31,12 @@ class InitialFields {
   static NamedFormula parse(const std::string& field, const std::string& text);
   static VectorFormula parse(const std::string& field, const Field& formulas);
   static Eigen::Vector3d at(const VectorFormula& formula, const Eigen::Vector3d& x);
-  [[nodiscard]] double hydrostatic(const Eigen::Vector3d& x) const;
 
   const Scene& scene_;
   const FluidRegion& region_;
+  int number_;  // of the region
+  fluid::EquationOfState eos_;
+  Eigen::Vector3d gravity_;
   VectorFormula displacement_, velocity_;
   NamedFormula pressure_;
 };

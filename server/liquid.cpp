@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fluid/sampling.hpp"
+#include "protocol/liquids.hpp"
 #include "server/geometry.hpp"
 #include "server/initial_fields.hpp"
 #include "server/packing.hpp"
@@ -72,6 +73,9 @@ class Filling {
       liquid_.position.push_back(position);
       liquid_.velocity.push_back(fields.velocity(origin));
       liquid_.pressure.push_back(fields.pressure(origin));
+      if (scene_.other_liquid_size() > 0)
+        liquid_.liquid.push_back(
+            static_cast<std::uint8_t>(protocol::liquid_of(scene_.fluid(r), scene_).value()));
     }
   }
 

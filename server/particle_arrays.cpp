@@ -50,6 +50,13 @@ std::vector<std::int64_t> ids_of(const fluid::Snapshot& state, const Rows* rows)
   return ids;
 }
 
+std::vector<std::int64_t> liquids_of(const fluid::Snapshot& state, const Rows* rows) {
+  if (rows == nullptr) return {state.liquid.begin(), state.liquid.end()};
+  std::vector<std::int64_t> liquids;
+  for (const std::size_t i : *rows) liquids.push_back(state.liquid[i]);
+  return liquids;
+}
+
 template <typename Real>
 void add(Message& frame, const ParticleArray& array, std::span<const double> all, const Rows* rows) {
   const std::size_t width = array.components;
@@ -71,7 +78,10 @@ void add(Message& frame, const ParticleArray& array, std::span<const double> all
 void add_particles(Message& frame, const Scene& scene, const fluid::Snapshot& state) {
   const std::optional<Rows> rows = chosen(scene.output(), state);
   for (const ParticleArray& array : protocol::particle_arrays(scene)) {
-    if (array.name == protocol::kParticleId) {
+    if (array.field == LIQUID) {
+      const std::vector<std::int64_t> liquids = liquids_of(state, rows ? &*rows : nullptr);
+      frame.add_array<std::int64_t>(array.name, liquids, {liquids.size()});
+    } else if (array.name == protocol::kParticleId) {
       const std::vector<std::int64_t> ids = ids_of(state, rows ? &*rows : nullptr);
       frame.add_array<std::int64_t>(array.name, ids, {ids.size()});
     } else if (array.type == Array::FLOAT32) {

@@ -18,7 +18,7 @@ class Probes {
       : simulation_(simulation),
         kinematics_(kinematics),
         state_(simulation.solver->snapshot()),
-        fluid_{state_, simulation.particle_mass,
+        fluid_{state_, simulation.particle_masses,
                simulation.scene.formulation().smoothing() * simulation.scene.spacing(),
                static_cast<int>(simulation.scene.dimension())} {}
 

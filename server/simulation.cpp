@@ -8,6 +8,7 @@
 #include "fluid/sampling.hpp"
 #include "protocol/body_kind.hpp"
 #include "protocol/build_id.hpp"
+#include "protocol/liquids.hpp"
 #include "protocol/scene_check.hpp"
 #include "server/build_info.hpp"
 #include "server/formulation.hpp"
@@ -43,7 +44,9 @@ fluid::Period to_period(const fluid::Tank& tank) {
 std::array<bool, 6> mirrored_sides(const Scene& scene, const fluid::Tank& tank, double support) {
   std::array<bool, 6> mirrored{};
   const Formulation& formulation = scene.formulation();
-  const bool sticks = tank.no_slip && scene.liquid().viscosity() > 0.0;
+  const std::vector<protocol::LiquidProperties> liquids = protocol::liquids(scene);
+  const bool sticks = tank.no_slip && std::any_of(liquids.begin(), liquids.end(),
+                                                  [](const auto& liquid) { return liquid.viscosity > 0.0; });
   const bool has_images = formulation.quadrature() == NODAL && formulation.integrator() == KICK_DRIFT_KICK;
   if (sticks || !has_images) return mirrored;
   for (std::size_t side = 0; side < 2 * scene.dimension(); ++side) {
@@ -67,6 +70,15 @@ protocol::StepClock make_clock(const Scene& scene, double largest_step) {
   }
 }
 
+void set_liquids(const Scene& scene, fluid::Setup& setup) {
+  for (const protocol::LiquidProperties& liquid : protocol::liquids(scene))
+    setup.liquids.push_back({liquid.density, liquid.viscosity, liquid.sound_speed});
+  setup.liquid =
+      *std::max_element(setup.liquids.begin(), setup.liquids.end(),
+                        [](const fluid::Liquid& a, const fluid::Liquid& b) { return a.density < b.density; });
+  if (setup.liquids.size() == 1) setup.liquids.clear();
+}
+
 }  // namespace
 
 fluid::Setup to_setup(const Scene& scene, int threads) {
@@ -74,9 +86,7 @@ fluid::Setup to_setup(const Scene& scene, int threads) {
   setup.dimension = static_cast<int>(scene.dimension());
   setup.spacing = scene.spacing();
   setup.gravity = to_vector(scene.gravity());
-  setup.liquid = {.density = scene.liquid().density(),
-                  .viscosity = scene.liquid().viscosity(),
-                  .sound_speed = scene.liquid().sound_speed()};
+  set_liquids(scene, setup);
   setup.formulation = to_formulation(scene.formulation());
   setup.fluid = fill_liquid(scene);
   setup.threads = threads;
@@ -114,6 +124,13 @@ std::size_t Simulation::boundary_particles() const {
 
 namespace {
 
+std::vector<double> particle_masses(const Scene& scene, double volume) {
+  std::vector<double> masses;
+  for (const protocol::LiquidProperties& liquid : protocol::liquids(scene))
+    masses.push_back(liquid.density * volume);
+  return masses;
+}
+
 // All but the first forces. The output rate stays that of the whole scene when the run is cut.
 Simulation set_up(const Scene& given, int threads, const SolverFactory& factory, double until) {
   Scene scene = protocol::with_defaults(given);
@@ -128,6 +145,7 @@ Simulation set_up(const Scene& given, int threads, const SolverFactory& factory,
       scene, std::min(solver->largest_step(scene.liquid().max_speed()), largest_exchange_step(scene, setup)));
   CouplingPlan coupling = plan_coupling(
       scene, setup, protocol::seconds(clock.interval()) / static_cast<double>(clock.steps_per_interval()));
+  std::vector<double> masses = particle_masses(scene, setup.fluid.volume);
   return {.scene = std::move(scene),
           .whole_duration = whole_duration,
           .bodies = std::move(bodies),
@@ -139,7 +157,7 @@ Simulation set_up(const Scene& given, int threads, const SolverFactory& factory,
           .walls = std::move(setup.walls),
           .boundaries = std::move(setup.bodies),
           .fluid_particles = setup.fluid.position.size(),
-          .particle_mass = setup.liquid.density * setup.fluid.volume,
+          .particle_masses = std::move(masses),
           .threads = threads};
 }
 

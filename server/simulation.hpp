@@ -36,7 +36,8 @@ struct Simulation {
   fluid::Boundary walls;
   std::vector<fluid::Boundary> boundaries;
   std::size_t fluid_particles = 0;
-  double particle_mass = 0;  // at zero pressure [kg], per metre of depth in 2D
+  // Of every liquid, at zero pressure [kg], per metre of depth in 2D.
+  std::vector<double> particle_masses;
   int threads = 1;
 
   // Whether a body moves by the fluid's forces, so that the rigid process needs every answer.

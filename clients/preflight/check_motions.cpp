@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clients/preflight/checks.hpp"
+#include "protocol/liquids.hpp"
 
 namespace sluice::clients {
 namespace {
@@ -60,7 +61,7 @@ void check_stays_inside(const BodyLayout& body, const Layout& layout, const std:
 void check_speed(const BodyLayout& body, const Layout& layout, const std::vector<double>& times,
                  Findings& findings) {
   const double radius = rigid::bounding_radius(body.placed.shape, layout.dimension);
-  const double sound = layout.scene.liquid().sound_speed();
+  const double sound = protocol::slowest_sound(layout.scene);
   double fastest = 0, when = 0;
   for (const double t : times) {
     const rigid::Offset offset = body.motion->at(t);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "clients/preflight/checks.hpp"
+#include "protocol/liquids.hpp"
 #include "protocol/sim_time.hpp"
 
 namespace sluice::clients {
@@ -12,6 +13,8 @@ namespace {
 constexpr double kBaseBytes = 60e6, kFluidBytes = 700, kBoundaryBytes = 200;
 // Particle steps a second of one thread in two and three dimensions.
 constexpr double kSpeed2 = 1.5e6, kSpeed3 = 0.2e6;
+// Several liquids go particle by particle.
+constexpr double kSeveralLiquids = 3;
 
 // In space, the box around a body that is no box or ball itself: asking for every point takes too long.
 Placed simple(const Placed& body, int dimension) {
@@ -96,7 +99,6 @@ double body_volume_in_particles(const BodyLayout& body, const Layout& layout, do
 
 Estimate estimate(const Layout& layout) {
   const auto& formulation = layout.scene.formulation();
-  const auto& liquid = layout.scene.liquid();
   const double h = formulation.smoothing() * layout.spacing,
                layers = std::ceil(2 * formulation.smoothing() - 1e-9);
   const double particle = std::pow(layout.spacing, layout.dimension);
@@ -112,13 +114,15 @@ Estimate estimate(const Layout& layout) {
   result.boundary_particles = static_cast<std::uint64_t>(std::llround(boundary));
   result.memory_bytes =
       static_cast<std::uint64_t>(kBaseBytes + kFluidBytes * moved + kBoundaryBytes * boundary);
-  const double step = formulation.courant() * h / (liquid.sound_speed() + liquid.max_speed());
+  const double step =
+      formulation.courant() * h / (protocol::fastest_sound(layout.scene) + layout.scene.liquid().max_speed());
   const auto clock =
       protocol::StepClock::for_run(layout.scene.duration(), layout.scene.output().rate(), step);
   result.steps = clock.steps();
   result.frames = clock.steps() / clock.steps_per_interval() + 1;
   result.run_seconds =
       moved * static_cast<double>(result.steps) / (layout.dimension == 2 ? kSpeed2 : kSpeed3);
+  if (layout.scene.other_liquid_size() > 0) result.run_seconds *= kSeveralLiquids;
   return result;
 }
 

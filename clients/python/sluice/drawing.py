@@ -9,14 +9,14 @@ try:
     import matplotlib
     from matplotlib.cm import ScalarMappable
     from matplotlib.collections import PolyCollection
-    from matplotlib.colors import LinearSegmentedColormap, Normalize
+    from matplotlib.colors import LinearSegmentedColormap, ListedColormap, Normalize
     from matplotlib.figure import Figure
     from matplotlib.patches import Rectangle
 finally:
     artist.kwdoc = _kwdoc
 
 __all__ = [
-    "Figure", "LinearSegmentedColormap", "Normalize", "PolyCollection", "Rectangle", "ScalarMappable", "matplotlib", "save",
+    "Figure", "LinearSegmentedColormap", "ListedColormap", "Normalize", "PolyCollection", "Rectangle", "ScalarMappable", "matplotlib", "save",
 ]
 
 

@@ -1,13 +1,13 @@
 """Pictures of the liquid, coloured by a field, with bodies and walls."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from sluice import raster, shapes
 from sluice import view as views
 from sluice.drawing import (
-    Figure, LinearSegmentedColormap, Normalize, PolyCollection, Rectangle, ScalarMappable, matplotlib,
+    Figure, LinearSegmentedColormap, ListedColormap, Normalize, PolyCollection, Rectangle, ScalarMappable, matplotlib,
 )
 from sluice.recording import RecordingError
 
@@ -27,15 +27,23 @@ class Style:
     limits: tuple = None  # of the colours; found from the frames unless given
     as_particles: bool = False
     front: bool = False
+    liquids: tuple = ()  # their names, where the field is liquid
+
+    def bar_label(self, unit):
+        return self.field.replace("_", " ") + (f" [{unit}]" if unit else "")
 
 
 def first_field(run):
-    """What a picture shows unless asked otherwise: the speed, or what is recorded instead."""
-    shown = {"velocity": "speed", "pressure": "pressure", "density": "density"}
+    """What a picture shows unless asked otherwise: which of several liquids, the speed, or what is recorded instead."""
+    shown = {"liquid": "liquid", "velocity": "speed", "pressure": "pressure", "density": "density"}
     return next((field for recorded, field in shown.items() if recorded in run.fields), f"position_{'xyz'[run.dimension - 1]}")
 
 
-def color_map(field):
+def color_map(style):
+    field = style.field
+    if field == "liquid":
+        # Blue, orange ...: told apart without seeing colours, by brightness, as far as there are few.
+        return ListedColormap(matplotlib.colormaps["tab10"].colors[: len(style.liquids)])
     if field == "speed":
         # Dark blue to pale yellow; white itself is where no liquid is.
         return LinearSegmentedColormap.from_list("speed", matplotlib.colormaps["YlGnBu_r"](np.linspace(0.08, 0.88, 256)))
@@ -101,7 +109,7 @@ class Panel:
 
     def __init__(self, axes, run, view, corners, style, norm, pixels):
         self.axes, self.run, self.view, self.style, self.norm = axes, run, view, style, norm
-        self.colors = color_map(style.field)
+        self.colors = color_map(style)
         self.grid = raster.make_grid(*corners, run.spacing, pixels)
         empty = np.zeros((self.grid.height, self.grid.width, 4), np.uint8)
         self.image = axes.imshow(empty, extent=self.grid.extent, origin="lower", interpolation="bilinear", zorder=1)
@@ -142,7 +150,7 @@ class Panel:
         elif run.dimension == 3:
             depth = view.depth(x[seen])
         places = x[seen][:, list(view.axes)]
-        if depth is not None or self.style.as_particles:
+        if depth is not None or self.style.as_particles or self.style.liquids:
             return raster.discs(self.grid, places, values[seen], run.spacing, depth)
         walls = (corner[list(view.axes)] for corner in shapes.enclosure(run.scene))
         places, values, origin = raster.mirrored(places, values[seen], *walls, raster.SUPPORT * run.spacing)
@@ -205,12 +213,14 @@ class Sheet:
         box = np.array([x, y, self.width, self.height]) / np.tile(self.inches, 2)
         return self.figure.add_axes(box, aspect="equal", anchor="SW")
 
-    def bar(self, norm, field, unit, extend):
+    def bar(self, norm, style, unit, extend):
         x = (self.inches[0] - RIGHT + 0.15) / self.inches[0]
         y = BOTTOM / self.inches[1]
         axes = self.figure.add_axes([x, y, 0.14 / self.inches[0], 1 - y - self.top / self.inches[1]])
-        bar = self.figure.colorbar(ScalarMappable(norm, color_map(field)), cax=axes, extend=extend)
-        bar.set_label(f"{field.replace('_', ' ')} [{unit}]", fontsize=9)
+        bar = self.figure.colorbar(ScalarMappable(norm, color_map(style)), cax=axes, extend=extend)
+        bar.set_label(style.bar_label(unit), fontsize=9)
+        if style.liquids:
+            bar.set_ticks(range(len(style.liquids)), labels=style.liquids)
         bar.ax.tick_params(labelsize=8)
         bar.outline.set_visible(False)
 
@@ -227,6 +237,9 @@ def draw(shots, view_of, style, title="", sampled=None):
     seen = [visible(run, view_of(run), [frame]) for run, frame in sampled]
     corners = np.min([low for low, _ in seen], axis=0), np.max([high for _, high in seen], axis=0)
     samples = [run.field(style.field, frame) for run, frame in sampled]
+    if style.field == "liquid":
+        style = replace(style, liquids=max((tuple(run.liquids) for run, _ in sampled), key=len))
+        style.limits = -0.5, len(style.liquids) - 0.5
     limits, extend = color_range(samples, style.field)
     if style.limits:
         limits, extend = style.limits, extension(np.concatenate(samples), *style.limits)
@@ -247,5 +260,5 @@ def draw(shots, view_of, style, title="", sampled=None):
         else:
             axes.tick_params(labelleft=False)
         panels.append(panel)
-    sheet.bar(norm, style.field, shots[0][0].unit(style.field), extend)
+    sheet.bar(norm, style, shots[0][0].unit(style.field), extend)
     return sheet, panels

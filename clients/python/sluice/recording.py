@@ -9,7 +9,7 @@ import numpy as np
 from sluice import probes
 
 FORMAT = 2  # and those before
-FIELDS = {"position": "m", "velocity": "m/s", "density": "kg/m³", "pressure": "Pa"}
+FIELDS = {"position": "m", "velocity": "m/s", "density": "kg/m³", "pressure": "Pa", "liquid": ""}
 DERIVED = {"speed": "m/s"}
 ENERGIES = ("kinetic", "potential", "elastic", "boundary_work")
 
@@ -70,6 +70,8 @@ class Recording:
         self.spacing = self.scene["spacing"]
         self.dimension = self.scene["dimension"]
         self.bodies = [body["name"] for body in self.scene.get("body", [])]
+        # By number; the scene's own has no name.
+        self.liquids = ["liquid", *(liquid["name"] for liquid in self.scene.get("other_liquid", []))]
         self.probes = [probe["name"] for probe in self.scene.get("probe", [])]
         self.reason = self._file["status"].attrs["reason"].decode()
         self.steps_per_interval = int(parameters["steps_per_interval"][()])
@@ -146,7 +148,7 @@ class Recording:
         return self._ids[1]
 
     def field(self, name, frame=None):
-        """position, velocity [n, 3]; density, pressure [n]; and speed, velocity_x ..., position_x ... [n].
+        """position, velocity [n, 3]; density, pressure, liquid (its number) [n]; and speed, velocity_x ..., position_x ... [n].
 
         Of the last frame that holds particles unless one is named.
         """

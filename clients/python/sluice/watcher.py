@@ -9,7 +9,7 @@ import messages_pb2 as messages
 from sluice import probes
 from sluice.link import PATIENCE, Clock, Link, Lost, arrays_of, make_socket, publish_address
 
-FIELDS = ("velocity", "density", "pressure")
+FIELDS = ("velocity", "density", "pressure", "liquid")
 
 
 @dataclass
@@ -38,6 +38,7 @@ class State:
     velocity: np.ndarray  # [n, 3], m/s
     density: np.ndarray  # [n], kg/m^3
     pressure: np.ndarray  # [n], Pa
+    liquid: np.ndarray  # [n], number; None where there is one liquid
     kinematics: np.ndarray  # [bodies, 19], messages.proto, Kinematics
     wrench: np.ndarray  # [bodies, 6], N and N m
     probes: dict  # name -> column -> value, as in probes.COLUMNS
@@ -45,10 +46,10 @@ class State:
 
 
 def _particles(a):
-    """id, position, velocity, density and pressure from the arrays of a frame."""
+    """id, position, velocity, density, pressure and liquid from the arrays of a frame."""
     position = a.get("fluid/position")
     if position is None:
-        return [None] * 5
+        return [None] * 6
     return [a.get("fluid/id", np.arange(len(position))), position, *(a.get(f"fluid/{n}") for n in FIELDS)]
 
 

@@ -29,9 +29,10 @@ Snapshot pool(int dimension, double depth) {
   return state;
 }
 
+const double kMass[] = {kDensity * kSpacing * kSpacing, kDensity* kSpacing* kSpacing* kSpacing};
+
 ProbedFluid probed(const Snapshot& state, int dimension) {
-  return {state, kDensity * std::pow(kSpacing, dimension), (dimension == 2 ? 1.45 : 1.49) * kSpacing,
-          dimension};
+  return {state, std::span(&kMass[dimension - 2], 1), (dimension == 2 ? 1.45 : 1.49) * kSpacing, dimension};
 }
 
 class ProbeIn : public testing::TestWithParam<int> {};

@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"NoParticles", 4, "duration: 1 output { particles_every: 0 }",
               ":4:22: output.particles_every: 0 is not positive; leave it out for particles in every output"},
         Fault{"NoSuchField", 4, "duration: 1 output { field: [VELOCITY, 7] }",
-              ":4:22: output.field[1]: 7 is none; give POSITION, VELOCITY, DENSITY or PRESSURE"},
+              ":4:22: output.field[1]: 7 is none; give POSITION, VELOCITY, DENSITY, PRESSURE or LIQUID"},
         Fault{"NoSuchPrecision", 4, "duration: 1 output { precision: 5 }",
               ":4:22: output.precision: 5 is none; give FLOAT32 or FLOAT64"},
         Fault{"FlatRegion", 4, "duration: 1 output { region { min: [0, 1] max: [1, 1] } }",

@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 from sluice import curves, ledger, movie, picture, plot, view
 from sluice.recording import Recording, RecordingError
-from written import Case, Values, write
+from written import SCENE, Case, Values, write
 
 
 def reads():
@@ -62,6 +62,21 @@ class PictureTest(Case):
             self.assertEqual(bar.get_ylabel(), "pressure [Pa]")
             (gate,) = panel.bodies.get_paths()
             np.testing.assert_allclose(gate.vertices[:4].mean(axis=0), [0.5, 0.4])
+
+    def test_several_liquids_are_told_apart_by_their_names(self):
+        def add_liquids(file):
+            file["particles/fluid/liquid/value"] = np.tile(np.arange(20) % 2, (6, 1))
+
+        scene = {**SCENE, "other_liquid": [{"name": "oil", "density": 850}]}
+        with Recording(write(self.directory / "two.h5", scene=scene, finish=add_liquids)) as run:
+            self.assertEqual(run.liquids, ["liquid", "oil"])
+            self.assertEqual(picture.first_field(run), "liquid")
+            sheet, (panel,) = picture.draw([(run, 2, "")], view.make_view, picture.Style("liquid"))
+            self.assertEqual([text.get_text() for text in sheet.figure.axes[-1].get_yticklabels()], ["liquid", "oil"])
+            colors = panel.image.get_array()
+            seen = np.unique(colors[colors[..., 3] == 255][:, :3], axis=0)
+            expected = np.round(255 * np.array(panel.colors.colors)).astype(int)
+            self.assertEqual({tuple(map(int, c)) for c in seen}, {tuple(map(int, c)) for c in expected})
 
     def test_the_time_has_digits_enough(self):
         with Recording(self.path) as run:

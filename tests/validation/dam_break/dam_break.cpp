@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 
 #include "validation/support/files.hpp"
+#include "validation/support/front.hpp"
 #include "validation/support/scene_run.hpp"
 
 namespace sluice::validation {
@@ -18,17 +18,11 @@ constexpr double kNearWall = 5.2;
 // The experiments' clocks start when the gate is pulled; their curves agree with each other from here on.
 constexpr double kFirst = 1;
 
-// Where the water, from the far end, is first a particle deep over four spacings: single particles of spray
-// that run ahead of the tongue do not count.
 double front(const SceneRun& run) {
-  constexpr std::size_t kCount = 4;
   const fluid::Snapshot s = run.solver().snapshot();
   std::vector<double> x;
   for (std::size_t i = 0; i < s.density.size(); ++i) x.push_back(s.position[3 * i]);
-  std::sort(x.begin(), x.end(), std::greater<>());
-  std::size_t k = 0;
-  while (k + kCount < x.size() && x[k] - x[k + kCount - 1] > kCount * run.scene().spacing()) ++k;
-  return x[k];
+  return front_of(std::move(x), run.scene().spacing());
 }
 
 // Particles further than half a spacing behind a closed wall.
@@ -64,12 +58,20 @@ std::optional<Scatter> scatter(double T) {
   return Scatter{*least, *most, sum / static_cast<double>(fronts.size())};
 }
 
-struct FrontError {
-  double ahead = 0, behind = 0;  // largest distance outside the experiments' scatter, over the front
-  double rms = 0;                // from their mean, over the mean
-};
+}  // namespace
 
-FrontError compare(const Curve& computed) {
+const std::vector<Experiment>& dam_break_experiments() {
+  static const std::vector<Experiment> experiments = [] {
+    std::vector<Experiment> all;
+    for (const char* name :
+         {"martin_moyce_1952_n2eq2_a1.125in", "martin_moyce_1952_n2eq2_a2.25in", "koshizuka_oka_1996_exp"})
+      all.push_back({name, read_curve(case_file("dam_break/" + std::string(name) + ".csv"))});
+    return all;
+  }();
+  return experiments;
+}
+
+FrontError compare_with_experiments(const Curve& computed) {
   FrontError error;
   double sum = 0;
   int count = 0;
@@ -84,19 +86,6 @@ FrontError compare(const Curve& computed) {
   }
   error.rms = std::sqrt(sum / count);
   return error;
-}
-
-}  // namespace
-
-const std::vector<Experiment>& dam_break_experiments() {
-  static const std::vector<Experiment> experiments = [] {
-    std::vector<Experiment> all;
-    for (const char* name :
-         {"martin_moyce_1952_n2eq2_a1.125in", "martin_moyce_1952_n2eq2_a2.25in", "koshizuka_oka_1996_exp"})
-      all.push_back({name, read_curve(case_file("dam_break/" + std::string(name) + ".csv"))});
-    return all;
-  }();
-  return experiments;
 }
 
 DamBreakRun run_dam_break(int resolution, const std::vector<std::string>& overrides, int threads) {
@@ -118,7 +107,7 @@ DamBreakRun run_dam_break(int resolution, const std::vector<std::string>& overri
     fronts.x.push_back(run.time() * to_T);
     fronts.y.push_back(front(run) / kWidth);
   }
-  const FrontError error = compare(fronts);
+  const FrontError error = compare_with_experiments(fronts);
   return {run.outcome({{"front ahead of the experiments", "% at most, T > 1", 100 * error.ahead, 0},
                        {"front behind the experiments", "% at most, T > 1", 100 * error.behind, 0},
                        {"energy", "% risen at most", 100 * largest_rise / start, 0.01},

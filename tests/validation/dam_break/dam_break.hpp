@@ -22,6 +22,13 @@ struct Experiment {
 };
 const std::vector<Experiment>& dam_break_experiments();
 
+// Of a front over a and T, for T > 1 as far as there are two experiments.
+struct FrontError {
+  double ahead = 0, behind = 0;  // largest distance outside the experiments' scatter, over the front
+  double rms = 0;                // from their mean, over the mean
+};
+FrontError compare_with_experiments(const Curve& front);
+
 Case dam_break();
 
 }  // namespace sluice::validation

@@ -39,8 +39,8 @@ Outcome run(int resolution, const std::vector<std::string>& overrides, int threa
   while (run.next_output()) {
     if (run.time() < kSteady) continue;
     const fluid::Snapshot state = run.solver().snapshot();
-    in_front += depth_between(state, run.simulation().particle_mass, kInFront);
-    behind += depth_between(state, run.simulation().particle_mass, kBehind);
+    in_front += depth_between(state, run.simulation().particle_masses[0], kInFront);
+    behind += depth_between(state, run.simulation().particle_masses[0], kBehind);
     const double mass = run.solver().diagnostics().openings.at(1).mass_out;
     if (outputs++ == 0) from = run.time(), left = mass;
     if (run.time() >= run.end_time() - 1e-9) left = (mass - left) / (run.time() - from);

@@ -22,7 +22,7 @@ server::Simulation simulate(const Scene& scene, int threads, Walls walls) {
 // Particles start with one volume and the density that their pressure makes.
 std::vector<double> initial_masses(const server::Simulation& simulation) {
   std::vector<double> masses = simulation.solver->snapshot().density;
-  const double volume = simulation.particle_mass / simulation.scene.liquid().density();
+  const double volume = simulation.particle_masses[0] / simulation.scene.liquid().density();
   for (double& mass : masses) mass *= volume;
   return masses;
 }

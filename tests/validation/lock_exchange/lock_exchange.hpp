@@ -1,0 +1,9 @@
+#pragma once
+
+#include "validation/support/case.hpp"
+
+namespace sluice::validation {
+
+Case lock_exchange();
+
+}  // namespace sluice::validation
