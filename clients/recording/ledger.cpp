@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "protocol/body_kind.hpp"
 #include "protocol/sim_time.hpp"
 
 namespace sluice::clients {
@@ -13,7 +14,9 @@ namespace {
 
 using Row = std::span<const double>;
 
-constexpr std::size_t kKinematics = 19, kWrench = 6, kParts = 12, kLedger = 15;
+constexpr std::size_t kKinematics = 19, kWrench = 6, kParts = 12, kLedger = 29;
+// Where in a body's ledger each cause begins.
+constexpr std::size_t kContact = 6, kJoints = 15, kDrive = 22;
 constexpr std::uint32_t kBlock = 256;  // steps read at once
 
 double dot(Row a, Row b) {
@@ -26,7 +29,7 @@ double norm(Row a) {
 // The sums over the steps of one body.
 class Sums {
  public:
-  Sums(const Body& body, Row kinematics, Row wrench) : is_free_(!body.has_prescribed()) {
+  Sums(const Body& body, Row kinematics, Row wrench) : is_free_(protocol::starts_free(body)) {
     result_.name = body.name();
     std::copy_n(kinematics.begin(), 3, start_.begin());
     std::copy(wrench.begin(), wrench.end(), wrench_.begin());
@@ -64,6 +67,12 @@ class Sums {
     result_.largest_residual = std::max(result_.largest_residual, coupling[1]);
   }
 
+  void note_indicator(double indicator, double time) {
+    if (indicator <= result_.largest_indicator) return;
+    result_.largest_indicator = indicator;
+    result_.largest_indicator_time = time;
+  }
+
   BodyLedger finish(Row gravity) {
     const Totals& sum = is_free_ ? settled_ : running_;
     result_.is_free = is_free_;
@@ -95,13 +104,23 @@ class Sums {
   void balance(const Totals& sum, Row gravity) {
     const double mass = last_[14];
     std::array<double, 6> weight{}, constraints{};
-    double fall = 0, residual = 0;
-    for (std::size_t c = 0; c < 6; ++c) {
-      if (c < 3) weight[c] = mass * gravity[c] * sum.time;
-      constraints[c] = last_[6 + c] - first_[6 + c];
-    }
+    double fall = 0, residual = 0, work = 0;
+    for (std::size_t c = 0; c < 3; ++c) weight[c] = mass * gravity[c] * sum.time;
     add_impulse("gravity", weight);
-    add_impulse("contact and joints", constraints);
+    const auto add_given = [&](const char* name, std::size_t at) {
+      std::array<double, 6> given{};
+      for (std::size_t c = 0; c < 6; ++c) {
+        given[c] = last_[at + c] - first_[at + c];
+        constraints[c] += given[c];
+      }
+      const double done = last_[at + 6] - first_[at + 6];
+      work += done;
+      add_impulse(name, given);
+      result_.works.emplace_back(name, done);
+    };
+    add_given("contact", kContact);
+    add_given("joints", kJoints);
+    add_given("drive and locks", kDrive);
     for (std::size_t c = 0; c < 3; ++c) {
       result_.momentum_change[c] = last_[c] - first_[c];
       fall += mass * gravity[c] * (sum.place[c] - start_[c]);
@@ -109,7 +128,7 @@ class Sums {
       residual += missing * missing;
     }
     if (sum.given > 0) result_.third_law_residual = std::sqrt(residual) / sum.given;
-    const double gained = last_[13] - first_[13] - (last_[12] - first_[12]) - fall;
+    const double gained = last_[13] - first_[13] - work - fall;
     if (sum.passed > 0) result_.energy_created = (gained - sum.work) / sum.passed;
     result_.mean_iterations = iterations_ / static_cast<double>(steps_);
   }
@@ -161,13 +180,14 @@ std::vector<BodyLedger> read_ledgers(const Reader& recording) {
     const protocol::Message log = recording.exchange_log(first, count);
     const Row kinematics = log.array<double>("kinematics"), wrenches = log.array<double>("wrenches"),
               parts = log.array<double>("wrench_parts"), ledger = log.array<double>("ledger"),
-              coupling = log.array<double>("coupling");
+              coupling = log.array<double>("coupling"), indicators = log.array<double>("indicator");
     for (std::uint32_t k = 0; k < count; ++k) {
       const bool begins = first + k == next_exchange;
       if (begins) next_exchange = clock.exchange_end(next_exchange, most) + 1;
       for (std::size_t b = 0; b < sums.size(); ++b) {
         const std::size_t r = k * sums.size() + b;
         if (begins) sums[b].begin(ledger.subspan(r * kLedger, kLedger));
+        sums[b].note_indicator(indicators[r], protocol::seconds(clock.time(first + k)));
         sums[b].add(protocol::seconds(clock.duration(first + k)),
                     kinematics.subspan(r * kKinematics, kKinematics), wrenches.subspan(r * kWrench, kWrench),
                     parts.subspan(r * kParts, kParts), coupling.subspan(2 * k, 2));
@@ -186,11 +206,15 @@ std::string to_text(const BodyLedger& ledger) {
   for (const auto& [name, impulse] : ledger.impulses) text += row(name, impulse);
   text += fmt::format("  {:<20}{:>12.5g} J\n", "work of liquid", ledger.work_of_liquid);
   if (!ledger.is_free) return text;
+  for (const auto& [name, work] : ledger.works)
+    text += fmt::format("  {:<20}{:>12.5g} J\n", "work of " + name, work);
   text += fmt::format("  {:<20}{:>12.5g}{:>12.5g}{:>12.5g} N s\n", "change of momentum",
                       ledger.momentum_change[0], ledger.momentum_change[1], ledger.momentum_change[2]);
   text += fmt::format("  {:<20}{:>12.2g} of the liquid's impulse\n", "third-law residual",
                       ledger.third_law_residual);
   text += fmt::format("  {:<20}{:>12.2g} of the work that passed\n", "energy created", ledger.energy_created);
+  text += fmt::format("  {:<20}{:>12.3g} with what was wet at t = {:.6g} s\n", "largest indicator",
+                      ledger.largest_indicator, ledger.largest_indicator_time);
   text += fmt::format("  {:<20}{:>12.2f} an exchange, at most {}, residual up to {:.2g}\n", "iterations",
                       ledger.mean_iterations, ledger.most_iterations, ledger.largest_residual);
   return text;

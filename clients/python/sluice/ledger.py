@@ -8,7 +8,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-GRAVITY, CONSTRAINTS = "gravity", "contact and joints"
+GRAVITY = "gravity"
+# Where the impulses of what acts on a body besides liquid and gravity begin in a row of its ledger. Before format 3 a row ended
+# with the mass, and what joints gave was under contact.
+CAUSES = {"contact": 6, "joints": 15, "drive and locks": 22}
 
 
 @dataclass
@@ -56,7 +59,8 @@ def _ledger(run, b, time, dt, kinematics, wrench, parts, states, first_wrench, b
     work = np.cumsum(dt * power)
     given = np.cumsum(dt * np.linalg.norm(mean[:, :3], axis=1))
     ledger = Ledger(run.bodies[b], time, impulses, work)
-    if "prescribed" in run.scene["body"][b]:
+    body = run.scene["body"][b]
+    if "prescribed" in body and not (body.get("free") or body.get("free_rotation")):
         return ledger
     # What the body has at the beginning of an exchange is due to the steps before it.
     at = np.flatnonzero(begins)[1:]
@@ -65,7 +69,9 @@ def _ledger(run, b, time, dt, kinematics, wrench, parts, states, first_wrench, b
     gravity = np.zeros(6)
     gravity[: run.dimension] = run.scene.get("gravity", [0.0] * run.dimension)
     ledger.impulses[GRAVITY] = states[at, 14, None] * gravity * ledger.time[:, None]
-    ledger.impulses[CONSTRAINTS] = states[at, 6:12] - states[0, 6:12]
+    for name, first in CAUSES.items():
+        if first < states.shape[1]:
+            ledger.impulses[name] = states[at, first : first + 6] - states[0, first : first + 6]
     ledger.momentum = states[at, 0:3] - states[0, 0:3]
     missing = ledger.momentum - sum(values[:, :3] for values in ledger.impulses.values())
     with np.errstate(invalid="ignore", divide="ignore"):
