@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "clients/recording/layout.hpp"
 #include "clients/recording/reader.hpp"
 #include "clients/recording/writer.hpp"
 #include "tests/unit/clients/fake_run.hpp"
