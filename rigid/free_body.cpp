@@ -284,11 +284,11 @@ Kinematics FreeBody::finish_drift(double dt, const Drift& before, const Drift& a
   is_before_drift_ = false;
   drift_velocity_ = {after.velocity, after.angular_velocity};
   joined_.work += dot(before_drift_, drift_velocity_);
-  // What hits a stop works on the mean of the velocities before and after.
+  // What hits a stop or another body works on the mean of the velocities before and after.
   joined_.work += 0.5 * (dot(hits_, start_velocity_) - dot(hits_, drift_velocity_));
-  add(by_contact_.impulse, on_free_axes({mass_ * (after.velocity - before.velocity), impulse}));
-  by_contact_.work += 0.5 * mass_ * (after.velocity.squaredNorm() - before.velocity.squaredNorm()) +
-                      0.5 * impulse.dot(after.angular_velocity + before.angular_velocity);
+  const Wrench by_contact = on_free_axes({mass_ * (after.velocity - before.velocity), impulse});
+  add(by_contact_.impulse, by_contact);
+  by_contact_.work += 0.5 * (dot(by_contact, start_velocity_) + dot(by_contact, drift_velocity_));
 
   pose_ = after.pose;
   // q and -q are one orientation; the sign is kept so that recorded components do not jump.

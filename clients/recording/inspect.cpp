@@ -111,7 +111,7 @@ Json vector(const std::array<double, 3>& v) {
 Json ledger_json(const std::vector<BodyLedger>& bodies) {
   Json list = Json::array();
   for (const BodyLedger& body : bodies) {
-    Json entry = {{"body", body.name}, {"time", body.time}};
+    Json entry = {{"body", body.name}, {"since", body.since}, {"time", body.since + body.time}};
     for (const auto& [name, part] : body.impulses)
       entry["impulse"][name] = {{"force", vector(part.force)}, {"moment", vector(part.moment)}};
     entry["work_of_liquid"] = body.work_of_liquid;

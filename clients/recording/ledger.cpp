@@ -6,7 +6,6 @@
 #include <cmath>
 #include <span>
 
-#include "protocol/body_kind.hpp"
 #include "protocol/sim_time.hpp"
 
 namespace sluice::clients {
@@ -17,6 +16,7 @@ using Row = std::span<const double>;
 constexpr std::size_t kKinematics = 19, kWrench = 6, kParts = 12, kLedger = 29;
 // Where in a body's ledger each cause begins.
 constexpr std::size_t kContact = 6, kJoints = 15, kDrive = 22;
+constexpr std::size_t kMass = 14;
 constexpr std::uint32_t kBlock = 256;  // steps read at once
 
 double dot(Row a, Row b) {
@@ -29,15 +29,25 @@ double norm(Row a) {
 // The sums over the steps of one body.
 class Sums {
  public:
-  Sums(const Body& body, Row kinematics, Row wrench) : is_free_(protocol::starts_free(body)) {
+  Sums(const Body& body, Row kinematics, Row wrench) {
     result_.name = body.name();
-    std::copy_n(kinematics.begin(), 3, start_.begin());
+    std::copy_n(kinematics.begin(), 3, running_.place.begin());
     std::copy(wrench.begin(), wrench.end(), wrench_.begin());
   }
 
-  // A step begins an exchange: what the body had then.
-  void begin(Row ledger) {
-    if (steps_ == 0) std::copy(ledger.begin(), ledger.end(), first_.begin());
+  // A step begins an exchange: what the body had then. From where it is free the sums are those since.
+  void begin(Row ledger, double time) {
+    const bool is_free = ledger[kMass] > 0;
+    if (is_free && !is_free_) {
+      result_.since = time;
+      std::copy(ledger.begin(), ledger.end(), first_.begin());
+      start_ = running_.place;
+      running_ = {};
+      running_.place = start_;
+      steps_ = 0;
+      iterations_ = 0;
+    }
+    is_free_ = is_free;
     std::copy(ledger.begin(), ledger.end(), last_.begin());
     settled_ = running_;
   }
@@ -102,7 +112,7 @@ class Sums {
   }
 
   void balance(const Totals& sum, Row gravity) {
-    const double mass = last_[14];
+    const double mass = last_[kMass];
     std::array<double, 6> weight{}, constraints{};
     double fall = 0, residual = 0, work = 0;
     for (std::size_t c = 0; c < 3; ++c) weight[c] = mass * gravity[c] * sum.time;
@@ -133,7 +143,7 @@ class Sums {
     result_.mean_iterations = iterations_ / static_cast<double>(steps_);
   }
 
-  bool is_free_;
+  bool is_free_ = false;
   BodyLedger result_;
   std::uint64_t steps_ = 0;
   double iterations_ = 0;
@@ -183,10 +193,11 @@ std::vector<BodyLedger> read_ledgers(const Reader& recording) {
               coupling = log.array<double>("coupling"), indicators = log.array<double>("indicator");
     for (std::uint32_t k = 0; k < count; ++k) {
       const bool begins = first + k == next_exchange;
+      const double start = protocol::seconds(clock.time(first + k - 1));
       if (begins) next_exchange = clock.exchange_end(next_exchange, most) + 1;
       for (std::size_t b = 0; b < sums.size(); ++b) {
         const std::size_t r = k * sums.size() + b;
-        if (begins) sums[b].begin(ledger.subspan(r * kLedger, kLedger));
+        if (begins) sums[b].begin(ledger.subspan(r * kLedger, kLedger), start);
         sums[b].note_indicator(indicators[r], protocol::seconds(clock.time(first + k)));
         sums[b].add(protocol::seconds(clock.duration(first + k)),
                     kinematics.subspan(r * kKinematics, kKinematics), wrenches.subspan(r * kWrench, kWrench),
@@ -202,7 +213,9 @@ std::vector<BodyLedger> read_ledgers(const Reader& recording) {
 
 std::string to_text(const BodyLedger& ledger) {
   std::string text =
-      fmt::format("ledger     {}, to t = {:.6g} s; impulses and their moments\n", ledger.name, ledger.time);
+      fmt::format("ledger     {}, {}to t = {:.6g} s; impulses and their moments\n", ledger.name,
+                  ledger.since > 0 ? fmt::format("free, from t = {:.6g} ", ledger.since) : "",
+                  ledger.since + ledger.time);
   for (const auto& [name, impulse] : ledger.impulses) text += row(name, impulse);
   text += fmt::format("  {:<20}{:>12.5g} J\n", "work of liquid", ledger.work_of_liquid);
   if (!ledger.is_free) return text;

@@ -18,7 +18,8 @@ struct BodyLedger {
 
   std::string name;
   bool is_free = false;
-  double time = 0;  // that it covers, from the start [s]
+  double since = 0,
+         time = 0;  // when it begins, at the start or where the body is released; that it covers [s]
   // By name: pressure, viscous, penetration; of a free body gravity, contact, joints, drive and locks. In
   // recordings before format 3 what joints gave is under contact.
   std::vector<std::pair<std::string, Impulse>> impulses;

@@ -228,6 +228,24 @@ TEST(PartlyFree, GoesOnFromItsStateBeforeAndAfterItIsReleased) {
   }
 }
 
+// Towed along the floor it lies on it, and pushes what is in its way.
+TEST(PartlyFree, TouchesAsOthersDo) {
+  BodySpec pusher = towed(constant_velocity({0.4, 0, 0}, {0, 0, 0}, 0));
+  pusher.pose.position = {0.3, 0.1, 0};
+  BodySpec pushed = body(Box{{0.1, 0.1, 0}}, 1, {0.601, 0.1, 0});
+  WorldSpec all = world(2, {pusher, pushed}, kDown);
+  all.tank.max = {3, 1, 0};
+  all.tank.closed[2] = true;
+  World simulated(all);
+  run(simulated, 1000, 1e-3, [&] {
+    EXPECT_NEAR(simulated.state(0).position.y(), 0.1, 1e-6);
+    EXPECT_NEAR(simulated.state(1).position.y(), 0.1, 1e-4);
+  });
+  EXPECT_NEAR(simulated.state(0).position.x(), 0.7, 1e-12);
+  EXPECT_NEAR(simulated.state(1).position.x(), 1.0, 1e-3);
+  EXPECT_NEAR(simulated.account(0).contact.impulse.force.y(), 2 * 9.81, 0.02 * 2 * 9.81);
+}
+
 TEST(PartlyFree, NeedsAMass) {
   EXPECT_THROW(World(world(2, {towed(constant_velocity({1, 0, 0}, {0, 0, 0}, 0), 0)})),
                std::invalid_argument);
