@@ -158,6 +158,7 @@ void fill_output(Output& output, double duration, bool several_liquids) {
 void fill_coupling(Coupling& coupling) {
   if (coupling.scheme() == COUPLING_UNSPECIFIED) coupling.set_scheme(EXPLICIT);
   if (!coupling.has_steps_per_exchange()) coupling.set_steps_per_exchange(1);
+  if (coupling.when_unstable() == WHEN_UNSTABLE_UNSPECIFIED) coupling.set_when_unstable(WARN);
   if (coupling.scheme() == EXPLICIT) {
     if (!coupling.has_shorten_steps()) coupling.set_shorten_steps(true);
     return;
