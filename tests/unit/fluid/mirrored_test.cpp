@@ -103,6 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Variant{"Planar", 2}, Variant{"Spatial", 3},
                     Variant{"Viscous", 2, [](Setup& s) { s.liquid.viscosity = 1.0; }},
                     Variant{"Shifted", 2, [](Setup& s) { s.formulation.shifting = 6; }},
+                    Variant{"Spread", 2, [](Setup& s) { s.formulation.spreading = 0.05; }},
                     Variant{"Sph", 2, [](Setup& s) { s.formulation.approximation = Approximation::sph; }},
                     Variant{
                         "FullDerivative", 2,

@@ -57,6 +57,12 @@ TEST(Rollback, IsExactOverARebuildOfTheLists) {
   expect_rollback_is_exact(straight, back, 30);
 }
 
+TEST(Rollback, IsExactOverADriftOfCrowds) {
+  const auto spread = [](Formulation& f) { f.spreading = 0.05; };
+  Splash straight(2, 0, 1, spread), back(2, 0, 2, spread);
+  expect_rollback_is_exact(straight, back, 30);
+}
+
 TEST(Rollback, IsExactInSpace) {
   Splash straight(3, 0, 1), back(3, 0, 1);
   expect_rollback_is_exact(straight, back, 4);

@@ -71,6 +71,7 @@ TEST(StateBytes, HoldWhatEveryFormulationKeeps) {
       {"predictor and corrector", 0, [](Formulation& f) { f.integrator = Integrator::predictor_corrector; }},
       {"leap-frog", 0, [](Formulation& f) { f.integrator = Integrator::leap_frog; }},
       {"interpolated motion", 0, [](Formulation& f) { f.interpolated_motion = 0.5; }},
+      {"spreading", 0, [](Formulation& f) { f.spreading = 0.05; }},
       {"tension control", 0, [](Formulation& f) { f.tension_control = true; }},
       {"symmetrized", 0, [](Formulation& f) { f.internal_force = InternalForce::symmetrized; }},
       {"lumped mass", 0, [](Formulation& f) { f.mass = Mass::lumped; }},
