@@ -6,6 +6,7 @@
 #include "fluid/body_step.hpp"
 #include "fluid/boundary.hpp"
 #include "fluid/checkpoint.hpp"
+#include "fluid/crowding.hpp"
 #include "fluid/force_sweep.hpp"
 #include "fluid/group_stages.hpp"
 #include "fluid/history.hpp"
@@ -80,8 +81,8 @@ class GalerkinSolver final : public Solver {
 
   // All that a step changes but the neighbour search.
   auto state() {
-    return std::tie(coefficients_, fluid_, boundary_, surface_, shifting_, bodies_, lagged_, reaction_,
-                    wrench_, last_wrench_, history_, interpolated_, boundary_work_, openings_);
+    return std::tie(coefficients_, fluid_, boundary_, surface_, shifting_, crowding_, bodies_, lagged_,
+                    reaction_, wrench_, last_wrench_, history_, interpolated_, boundary_work_, openings_);
   }
 
   [[nodiscard]] GroupStages<Dim> group_stages() const requires kHasGroups {
@@ -95,6 +96,7 @@ class GalerkinSolver final : public Solver {
   void compute_own_stress();
   void compute_liquid_forces();
   void find_films();
+  void spread_crowds(double dt);
   void compute_reactions();
   [[nodiscard]] Wrench wrench_on_sides() const;
   void add_impulse(double dt);
@@ -127,6 +129,7 @@ class GalerkinSolver final : public Solver {
   MirrorGuard<Dim> mirror_guard_;
   FreeSurface<Dim> surface_;
   Shifting<Dim> shifting_;
+  Crowding<Dim> crowding_;
   std::vector<Kinematics> bodies_;
   std::vector<LaggedAcceleration> lagged_;  // per body
   std::vector<Reaction<Dim>> reaction_;     // on the active boundary particles, by particle
@@ -146,7 +149,7 @@ class GalerkinSolver final : public Solver {
   double boundary_work_ = 0;
 
   Checkpoint<std::vector<typename Operator<Dim, Kernel>::Coefficients>, Particles<Dim>,
-             BoundaryParticles<Dim>, FreeSurface<Dim>, Shifting<Dim>, std::vector<Kinematics>,
+             BoundaryParticles<Dim>, FreeSurface<Dim>, Shifting<Dim>, Crowding<Dim>, std::vector<Kinematics>,
              std::vector<LaggedAcceleration>, std::vector<Reaction<Dim>>, std::vector<Wrench>,
              std::vector<Wrench>, History<Dim>, std::vector<Vec<Dim>>, double, Openings<Dim>>
       saved_;

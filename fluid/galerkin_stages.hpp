@@ -109,6 +109,7 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       period_(setup.period),
       mirror_guard_(setup.mirrors, model_),
       shifting_(setup.formulation.shifting),
+      crowding_(setup.formulation.spreading, model_),
       bodies_(setup.bodies.size()),
       lagged_(stages::make_lagged(setup, model_)),
       wrench_(setup.bodies.size() + 1),
@@ -153,6 +154,7 @@ template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::step(double dt, std::span<const Kinematics> bodies) {
   assert(dt > 0.0);
   last_wrench_ = wrench_;
+  spread_crowds(dt);
   switch (integrator_) {
     case Integrator::kick_drift_kick:
       kick_drift_kick(dt, bodies);
@@ -308,6 +310,18 @@ void GalerkinSolver<Dim, Kernel>::find_films() {
     fluid_.node[i].rho = model_.eos.rest_density();
     fluid_.divergence[i] = fluid_.density_rate[i] = 0.0;
   });
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::spread_crowds(double dt) {
+  if (!crowding_.is_used()) return;
+  const auto for_fluid_near = [this](std::size_t i, const auto& visit) {
+    if (by_groups_)
+      search_.groups().for_fluid_near_particle(i, visit);
+    else
+      for (const std::uint32_t k : search_.fluid_near_fluid(i)) visit(k);
+  };
+  crowding_.advance(dt, model_, for_fluid_near, parallel_, fluid_);
 }
 
 // CF (70) with the divergence at the new positions, and the density diffusion of the last sweep 2. A particle

@@ -36,6 +36,13 @@ class GroupSearch {
   // Boundary particles near one fluid particle, and few beyond the reach; `buffer` holds them.
   [[nodiscard]] std::span<const std::uint32_t> boundary_near_particle(
       std::size_t i, std::vector<std::uint32_t>& buffer) const;
+  // Calls visit(k) for fluid near one fluid particle, itself among it, and for some beyond the reach.
+  template <typename Visit>
+  void for_fluid_near_particle(std::size_t i, const Visit& visit) const {
+    const NearGroup near = fluid_.of(i / kGroup);
+    for (std::size_t n = 0; n < near.index.size(); ++n)
+      if (near.lanes == nullptr || near.lanes[n] >> i % kGroup & 1) visit(near.index[n]);
+  }
   // Groups of boundary particles that have fluid near.
   [[nodiscard]] const std::vector<std::uint32_t>& active_boundary() const { return active_; }
   [[nodiscard]] NearGroup fluid_near_boundary(std::size_t group) const { return of_boundary_.of(group); }

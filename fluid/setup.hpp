@@ -63,6 +63,7 @@ struct Formulation {
   double density_diffusion = 0.1;          // delta
   double artificial_viscosity = 0.02;      // alpha
   double shifting = 0;                     // S of shifting.hpp; 0: none
+  double spreading = 0;                    // S of crowding.hpp; 0: none
   bool tension_control = false;            // see tension_control.hpp
   double moment_floor = 0.2;               // smallest eigenvalue of C over the lattice's
   double courant = 0.4;                    // dt (c0 + v_max) / h

@@ -51,6 +51,8 @@ void check_other_liquids(const Scene& scene, FieldCheck& check);
 void check_openings(const Scene& scene, FieldCheck& check);
 void check_fluid(const FluidRegion& region, const std::string& field, FieldCheck& check);
 void check_bodies(const Scene& scene, FieldCheck& check);
+// Those that are locked, and free beside a prescribed motion.
+void check_axes(const Body& body, const std::string& field, FieldCheck& check);
 void check_body_shape(const Body& body, const std::string& field, FieldCheck& check);
 // A rotation: by angle in two dimensions, by a quaternion in three.
 void check_turn(double angle, const Vector& orientation, const std::string& field, FieldCheck& check);

@@ -50,7 +50,7 @@ void check_mass(const Body& body, const std::string& field, FieldCheck& check) {
     check.report(field + ".mass", "density is given too; leave one of them out");
   if (body.has_density() || body.has_mass() || !is_ever_free(body)) return;
   if (body.has_prescribed())
-    check.report(field + ".prescribed.release",
+    check.report(field + (is_partly_free(body) ? "" : ".prescribed.release"),
                  "makes the body free, which has neither density nor mass; give one");
   else
     check.report(field, "is free and has neither density nor mass; give one, or a prescribed motion");
@@ -72,34 +72,26 @@ void check_inertia(const Body& body, const std::string& field, FieldCheck& check
     check.report(path, "belongs to no body: its determinant or a principal minor is not positive");
 }
 
+// Of a body with a prescribed motion: only along axes that are free all the same. `first` is the axis of
+// entry 0.
+void check_not_prescribed(const Vector& velocity, const google::protobuf::RepeatedField<int>& free, int first,
+                          const std::string& path, FieldCheck& check) {
+  if (free.empty() && !velocity.empty())
+    return check.report(path, "is for free bodies; the motion of this one is prescribed, remove it");
+  for (int i = 0; i < velocity.size(); ++i)
+    if (velocity[i] != 0 && std::find(free.begin(), free.end(), X_AXIS + first + i) == free.end())
+      check.report(fmt::format("{}[{}]", path, i), "is along an axis that the motion prescribes; give 0");
+}
+
 void check_initial_motion(const Body& body, const std::string& field, FieldCheck& check) {
   check.optional_vector(body.velocity(), field + ".velocity", "the initial velocity");
   check.optional_rotation(body.angular_velocity(), field + ".angular_velocity",
                           "the initial angular velocity");
   if (!body.has_prescribed()) return;
-  for (const auto& [name, given] : {std::pair{".velocity", !body.velocity().empty()},
-                                    std::pair{".angular_velocity", !body.angular_velocity().empty()}}) {
-    if (given)
-      check.report(field + name, "is for free bodies; the motion of this one is prescribed, remove it");
-  }
-}
-
-void check_locks(const Body& body, const std::string& field, FieldCheck& check) {
-  const auto check_axes = [&](const auto& axes, const std::string& path, bool turns) {
-    for (int i = 0; i < axes.size(); ++i) {
-      const std::string entry = fmt::format("{}[{}]", path, i);
-      const bool in_plane = turns ? axes[i] == Z_AXIS : axes[i] == X_AXIS || axes[i] == Y_AXIS;
-      if (axes[i] == AXIS_UNSPECIFIED)
-        check.report(entry, "is no axis; give X_AXIS, Y_AXIS or Z_AXIS");
-      else if (check.dimension() == 2 && !in_plane)
-        check.report(entry, turns ? "does not exist in two dimensions, where bodies turn about Z_AXIS"
-                                  : "does not exist in two dimensions; remove it");
-    }
-    if (!axes.empty() && !is_ever_free(body))
-      check.report(path, "is for free bodies; the motion of this one is prescribed, remove it");
-  };
-  check_axes(body.locked(), field + ".locked", false);
-  check_axes(body.locked_rotation(), field + ".locked_rotation", true);
+  check_not_prescribed(body.velocity(), body.free(), 0, field + ".velocity", check);
+  const int first_turn = check.dimension() == 2 ? 2 : 0;
+  check_not_prescribed(body.angular_velocity(), body.free_rotation(), first_turn, field + ".angular_velocity",
+                       check);
 }
 
 }  // namespace
@@ -118,7 +110,7 @@ void check_bodies(const Scene& scene, FieldCheck& check) {
     check_inertia(body, field, check);
     check_contact(body.contact(), field + ".contact", check);
     check_initial_motion(body, field, check);
-    check_locks(body, field, check);
+    check_axes(body, field, check);
     if (body.has_prescribed()) check_motion(body.prescribed(), field + ".prescribed", check);
   }
 }

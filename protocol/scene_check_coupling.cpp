@@ -9,6 +9,9 @@ void check_coupling(const Scene& scene, FieldCheck& check) {
   if (!CouplingScheme_IsValid(c.scheme()))
     check.report("coupling.scheme",
                  fmt::format("{} is none; give EXPLICIT, IMPLICIT or AUTO", static_cast<int>(c.scheme())));
+  if (!WhenUnstable_IsValid(c.when_unstable()))
+    check.report("coupling.when_unstable",
+                 fmt::format("{} is none; give WARN or REFUSE", static_cast<int>(c.when_unstable())));
   if (c.has_steps_per_exchange()) check.within(c.steps_per_exchange(), 1, 256, "coupling.steps_per_exchange");
   if (c.has_tolerance()) check.within(c.tolerance(), 1e-14, 1, "coupling.tolerance");
   if (c.has_most_iterations()) check.within(c.most_iterations(), 1, 100, "coupling.most_iterations");

@@ -36,6 +36,7 @@ void check_ranges(const Formulation& f, FieldCheck& check) {
   within(f.has_artificial_viscosity(), f.artificial_viscosity(), 0, 10, "artificial_viscosity");
   within(f.has_moment_floor(), f.moment_floor(), 0.01, 1, "moment_floor");
   within(f.has_shifting(), f.shifting(), 0, 20, "shifting");
+  within(f.has_spreading(), f.spreading(), 0, 0.1, "spreading");
   within(f.has_courant(), f.courant(), 0.001, 1, "courant");
   within(f.has_isobaric_scale(), f.isobaric_scale(), 0.001, 1, "isobaric_scale");
   within(f.has_multistep_beta1(), f.multistep_beta1(), 0, 2, "multistep_beta1");
@@ -64,6 +65,8 @@ void check_combinations(const Scene& scene, FieldCheck& check) {
         "KERNEL_ALONE belongs to the fit of MLS, MLS_FULL_DERIVATIVE or SHEPARD; SPH has no fit");
   needs(f.tension_control(), is_mls(f), "tension_control",
         "takes the pressure relative to the particle's own in the gradients of MLS; leave approximation out");
+  needs(f.spreading() > 0, is_mls(f) && f.quadrature() != STRESS_POINTS, "spreading",
+        "measures crowding with the fit of MLS at particles; leave approximation and quadrature out");
   needs(f.internal_force() == SYMMETRIZED, is_mls(f), "internal_force",
         "SYMMETRIZED is built for MLS, to compare with; SPH is symmetrized as it is");
   needs(f.internal_force() == ISOBARIC, f.approximation() == SPH, "internal_force",

@@ -89,6 +89,8 @@ void check_others(const Scene& given, FieldCheck& check) {
          "moves one liquid with the other's velocity; leave it out");
   refuse(f.shifting() > 0, "formulation.shifting",
          "carries momentum from one liquid to the other; leave it out");
+  refuse(f.spreading() > 0, "formulation.spreading",
+         "carries momentum from one liquid to the other; leave it out");
   refuse(f.tension_control(), "formulation.tension_control",
          "takes its pressures across interfaces; leave it out");
 }

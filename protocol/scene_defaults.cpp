@@ -118,7 +118,12 @@ void fill_body(Body& body, int dimension) {
   }
 }
 
-void fill_formulation(Formulation& formulation, unsigned dimension, bool shifted) {
+// Crowding is measured with the fit of MLS.
+bool has_fit(const Formulation& formulation) {
+  return formulation.approximation() == MLS && formulation.quadrature() == NODAL;
+}
+
+void fill_formulation(Formulation& formulation, unsigned dimension, bool shifted, bool spread) {
   if (!formulation.has_smoothing()) formulation.set_smoothing(dimension == 2 ? 1.45 : 1.49);
   if (!formulation.has_density_diffusion()) formulation.set_density_diffusion(0.1);
   if (!formulation.has_artificial_viscosity()) formulation.set_artificial_viscosity(0.02);
@@ -136,6 +141,7 @@ void fill_formulation(Formulation& formulation, unsigned dimension, bool shifted
   if (!formulation.has_initial_parameters()) formulation.set_initial_parameters(false);
   if (!formulation.has_tension_control()) formulation.set_tension_control(false);
   if (!formulation.has_shifting()) formulation.set_shifting(shifted ? 6 : 0);
+  if (!formulation.has_spreading()) formulation.set_spreading(spread && has_fit(formulation) ? 0.01 : 0);
 }
 
 void fill_output(Output& output, double duration, bool several_liquids) {
@@ -152,6 +158,7 @@ void fill_output(Output& output, double duration, bool several_liquids) {
 void fill_coupling(Coupling& coupling) {
   if (coupling.scheme() == COUPLING_UNSPECIFIED) coupling.set_scheme(EXPLICIT);
   if (!coupling.has_steps_per_exchange()) coupling.set_steps_per_exchange(1);
+  if (coupling.when_unstable() == WHEN_UNSTABLE_UNSPECIFIED) coupling.set_when_unstable(WARN);
   if (coupling.scheme() == EXPLICIT) {
     if (!coupling.has_shorten_steps()) coupling.set_shorten_steps(true);
     return;
@@ -180,7 +187,7 @@ Scene with_defaults(const Scene& scene) {
   const bool several = full.other_liquid_size() > 0;
   fill_output(*full.mutable_output(), full.duration(), several);
   fill_formulation(*full.mutable_formulation(), full.dimension(),
-                   full.domain().periodic_size() > 0 && !several);
+                   full.domain().periodic_size() > 0 && !several, norm(full.gravity()) > 0 && !several);
   fill_coupling(*full.mutable_coupling());
   return full;
 }

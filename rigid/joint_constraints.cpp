@@ -32,7 +32,8 @@ const Pose& pose_at(std::span<const Pose> ends, std::size_t body) {
 void Constraint::apply(double more, std::span<JointedBody> bodies) {
   impulse += more;
   for (const auto& [body, wrench] : {std::pair{a, &row.on_a}, std::pair{b, &row.on_b}})
-    if (body != kWorld && bodies[body].free != nullptr) bodies[body].free->apply_joint(scaled(more, *wrench));
+    if (body != kWorld && bodies[body].free != nullptr)
+      bodies[body].free->apply_joint(scaled(more, *wrench), kind == Kind::lower || kind == Kind::upper);
 }
 
 Pose start_of(std::span<const JointedBody> bodies, std::size_t body) {

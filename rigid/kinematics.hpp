@@ -21,14 +21,21 @@ struct Wrench {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
 };
 
-// What a free body has and what contact and joints gave to it since the start. Moments about the centre of
+// What one cause gave to a body since the start.
+struct Given {
+  Wrench impulse;   // [N s], [N m s]
+  double work = 0;  // of it [J]
+};
+
+// What a free body has and what gave it that, besides the fluid and gravity. Moments about the centre of
 // mass.
 struct Account {
-  Wrench momentum;             // [kg m/s] and angular [kg m^2/s]
-  Wrench constraint_impulse;   // by contact and joints [N s], [N m s]
-  double constraint_work = 0;  // of it [J]
-  double kinetic_energy = 0;   // [J]
-  double mass = 0;             // [kg]
+  Wrench momentum;  // [kg m/s] and angular [kg m^2/s]
+  Given contact;
+  Given joints;               // springs and dampers among them
+  Given drive;                // of what holds locked axes and drives those that a motion prescribes
+  double kinetic_energy = 0;  // [J]
+  double mass = 0;            // [kg]
 };
 
 }  // namespace sluice::rigid

@@ -20,7 +20,7 @@ namespace {
 constexpr double kLargestTurn = std::numbers::pi / 4;
 
 bool is_ever_free(const BodySpec& body) {
-  return !body.motion || std::isfinite(body.release);
+  return !body.motion || std::isfinite(body.release) || is_guided(body);
 }
 
 void check(const BodySpec& body) {
@@ -49,6 +49,7 @@ void check_turn(const std::string& name, const FreeBody::Drift& drift, double dt
 // The body as its motion leaves it at `offset`.
 BodySpec released(const BodySpec& body, const Offset& offset) {
   BodySpec free = body;
+  free.motion = nullptr;
   free.pose = {body.pose.position + offset.position, rotation(offset.rotation) * body.pose.orientation};
   free.velocity = offset.velocity;
   free.angular_velocity = offset.angular_velocity;
@@ -67,6 +68,11 @@ Kinematics prescribed(const BodySpec& body, const Offset& start, const Offset& e
 }
 
 }  // namespace
+
+bool is_guided(const BodySpec& body) {
+  const auto any = [](const std::array<bool, 3>& axes) { return axes[0] || axes[1] || axes[2]; };
+  return body.motion && (any(body.free) || any(body.free_rotation));
+}
 
 struct World::Parts {
   WorldSpec spec;
@@ -92,11 +98,9 @@ struct World::Parts {
         load(spec.bodies.size()) {
     for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
       check(spec.bodies[b]);
-      if (spec.bodies[b].motion) {
-        offset[b] = spec.bodies[b].motion->at(0);
-      } else {
-        free[b].emplace(spec.bodies[b], spec.gravity, spec.dimension);
-      }
+      const BodySpec& body = spec.bodies[b];
+      if (body.motion) offset[b] = body.motion->at(0);
+      if (!body.motion || is_guided(body)) free[b].emplace(body, spec.gravity, spec.dimension);
     }
     if (is_any_ever_free()) make_contact();
     set_loads(joints.loads(jointed()));
@@ -118,13 +122,18 @@ struct World::Parts {
     return std::any_of(spec.bodies.begin(), spec.bodies.end(), is_ever_free);
   }
 
+  [[nodiscard]] bool is_moved(std::size_t b) const { return !free[b] || free[b]->is_guided(); }
+
   // Frees the bodies whose time has come by the beginning of a step [s].
   void release(double start, double dt) {
     for (std::size_t b = 0; b < free.size(); ++b) {
       const BodySpec& body = spec.bodies[b];
       constexpr double kRoundOff = 1e-6;  // of a step
-      if (free[b] || start < body.release - kRoundOff * dt) continue;
-      free[b].emplace(released(body, offset[b]), spec.gravity, spec.dimension);
+      if (!is_moved(b) || start < body.release - kRoundOff * dt) continue;
+      if (free[b])
+        free[b]->let_go(body);
+      else
+        free[b].emplace(released(body, offset[b]), spec.gravity, spec.dimension);
       free[b]->set_wrench(wrench[b]);
       free[b]->set_load(load[b]);
       contact->release(b, *free[b]);
@@ -270,11 +279,12 @@ std::vector<Kinematics> World::predict(double end, double dt) {
   parts_->release(end - dt, dt);
   const std::vector<Offset> start = parts_->offset;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (parts_->is_moved(b)) parts_->offset[b] = bodies[b].motion->at(end);
     if (auto& free = parts_->free[b]) {
-      free->forget_joint_impulse();
+      if (free->is_guided()) free->set_off(start[b], parts_->offset[b], dt);
+      free->begin_step();
       free->kick(dt / 2);
     } else {
-      parts_->offset[b] = bodies[b].motion->at(end);
       steps[b] = prescribed(bodies[b], start[b], parts_->offset[b], dt);
       before[b] = {parts_->pose_of(b, start[b]), steps[b].velocity, steps[b].angular_velocity};
     }
@@ -282,8 +292,14 @@ std::vector<Kinematics> World::predict(double end, double dt) {
   if (!parts_->contact) return steps;
 
   parts_->drift(dt, start, before, after);
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (auto& free = parts_->free[b]) steps[b] = free->finish_drift(dt, before[b], after[b]);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    auto& free = parts_->free[b];
+    if (!free) continue;
+    steps[b] = free->finish_drift(dt, before[b], after[b]);
+    if (!free->is_guided()) continue;
+    free->arrive(bodies[b], parts_->offset[b]);
+    steps[b].position = free->pose().position;
+  }
   return steps;
 }
 
@@ -306,8 +322,11 @@ void World::save() {
 
 void World::restore() {
   const Parts::Saved& saved = parts_->saved;
-  for (std::size_t b = 0; b < saved.free.size(); ++b)
+  for (std::size_t b = 0; b < saved.free.size(); ++b) {
     if (parts_->free[b] && !saved.free[b]) parts_->contact->hold(b);
+    if (saved.free[b] && saved.free[b]->is_guided() && !parts_->free[b]->is_guided())
+      parts_->contact->release(b, *saved.free[b]);
+  }
   parts_->free = saved.free;
   parts_->offset = saved.offset;
   parts_->wrench = saved.wrench;
@@ -322,8 +341,8 @@ void World::renew_contact() {
 std::vector<double> World::write_state() {
   NumberWriter writer;
   for (std::size_t b = 0; b < parts_->free.size(); ++b) {
-    double is_free = parts_->free[b] ? 1 : 0;
-    writer.visit(is_free);
+    double is_free = parts_->free[b] ? 1 : 0, is_moved = parts_->is_moved(b) ? 1 : 0;
+    writer.visit_all(is_free, is_moved);
     parts_->visit_body(b, writer);
   }
   return writer.take();
@@ -332,13 +351,14 @@ std::vector<double> World::write_state() {
 std::span<const double> World::read_state(std::span<const double> row) {
   NumberReader reader(row);
   for (std::size_t b = 0; b < parts_->free.size(); ++b) {
-    double is_free = 0;
-    reader.visit(is_free);
+    double is_free = 0, is_moved = 0;
+    reader.visit_all(is_free, is_moved);
     const BodySpec& body = parts_->spec.bodies[b];
     if (is_free == 0)
       parts_->free[b].reset();
     else
       parts_->free[b].emplace(body, parts_->spec.gravity, parts_->spec.dimension);
+    if (is_free != 0 && is_moved == 0 && is_guided(body)) parts_->free[b]->let_go(body);
     parts_->visit_body(b, reader);
   }
   renew_contact();

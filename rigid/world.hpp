@@ -35,9 +35,15 @@ struct BodySpec {
   Contact contact;
   std::array<bool, 3> locked{}, locked_rotation{};  // world axes along, about which a free body does not move
   MotionPtr motion;                                 // prescribed; null: free
+  // With a motion: world axes along and about which the body is free all the same, from the twist above; the
+  // motion has nothing along them. If there are any the body needs a mass.
+  std::array<bool, 3> free{}, free_rotation{};
   // With a motion: from the first step that begins at or after this time on the body is free [s].
   double release = std::numeric_limits<double>::infinity();
 };
+
+// Whether a motion moves the body along some axes only.
+bool is_guided(const BodySpec& body);
 
 // Walls on the closed sides of a box. A wall is a whole plane: it goes on beyond the corners of the box.
 struct Tank {

@@ -101,12 +101,13 @@ std::span<const fluid::Kinematics> Coupling::kinematics(std::uint64_t step) {
   return exchange_.kinematics(step);
 }
 
-void Coupling::answer(std::uint64_t step) {
+void Coupling::answer(std::uint64_t step, std::span<const double> indicators) {
   step_ = step;
+  indicators_.assign(indicators.begin(), indicators.end());
   if (bodies_ == 0) return;
   const std::span<const fluid::Wrench> wrenches = simulation_.solver->wrenches();
   if (options_.expect_recorder)
-    log_.add(step, rows_, wrenches, simulation_.solver->wrench_parts(), exchange_.ledger());
+    log_.add(step, rows_, wrenches, simulation_.solver->wrench_parts(), exchange_.ledger(), indicators);
   if (std::optional<Message> reply = exchange_.answer(step, wrenches, probes_for_participant(step))) {
     stamp(reply->header);
     session_.send(RIGID, std::move(*reply));
@@ -245,6 +246,8 @@ void Coupling::publish_status() {
   const double rate = progress_.rate(step_);
   if (!publisher_.wanted("status")) return;
   Message message = status(step_, simulation_.clock.steps(), progress_.wall_seconds(), rate);
+  if (lock_step_)
+    message.header.mutable_status()->mutable_indicator()->Assign(indicators_.begin(), indicators_.end());
   stamp(message.header);
   count(message);
   publisher_.publish("status", message);

@@ -45,11 +45,14 @@ class Coupling {
   std::span<const fluid::Kinematics> kinematics(std::uint64_t step);
   // The last step that may be taken before the rigid process has to be heard again; waits for it.
   std::uint64_t exchange_end(std::uint64_t first);
-  // The step is done: logs the exchange and answers the rigid process with the solver's wrenches.
-  void answer(std::uint64_t step);
+  // The step is done: logs the exchange, with the bodies' stability, and answers the rigid process with the
+  // solver's wrenches.
+  void answer(std::uint64_t step, std::span<const double> indicators);
   // Whether the steps answered since exchange_end are to be done again, from the state before them; waits for
   // the rigid process where exchanges are iterated. When not, they are logged.
   bool repeats();
+  // Of an iterated exchange that is not done again, what the rigid process said of it.
+  [[nodiscard]] const Accepted& accepted() const { return exchange_.accepted(); }
   // Hands the state to the recorder and the watchers; waits while the recorder is too far behind.
   void output(std::uint64_t step);
   // Keeps the state after an output step, and writes it to disk when that is due and the recorder has all up
@@ -107,9 +110,10 @@ class Coupling {
   Publisher publisher_;
   Progress progress_;
   std::chrono::steady_clock::time_point polled_;
-  std::vector<double> rows_;  // kinematics of the last step
-  std::uint64_t step_ = 0;    // done
-  Outcome outcome_;           // what of it is counted on the way
+  std::vector<double> rows_;        // kinematics of the last step
+  std::vector<double> indicators_;  // of the bodies, at the last step
+  std::uint64_t step_ = 0;          // done
+  Outcome outcome_;                 // what of it is counted on the way
   bool ending_ = false;
 };
 

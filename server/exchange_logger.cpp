@@ -15,7 +15,7 @@ void move_to(std::vector<double>& to, std::vector<double>& from) {
 
 void ExchangeLogger::add(std::uint64_t step, std::span<const double> kinematics,
                          std::span<const fluid::Wrench> wrenches, std::span<const fluid::WrenchParts> parts,
-                         std::span<const double> ledger) {
+                         std::span<const double> ledger, std::span<const double> indicators) {
   if (rows_.count + pending_.count == 0) first_step_ = step;
   assert(step == first_step_ + rows_.count + pending_.count);
   pending_.kinematics.insert(pending_.kinematics.end(), kinematics.begin(), kinematics.end());
@@ -25,6 +25,7 @@ void ExchangeLogger::add(std::uint64_t step, std::span<const double> kinematics,
     append(pending_.parts, part.guard);
   }
   pending_.ledger.insert(pending_.ledger.end(), ledger.begin(), ledger.end());
+  pending_.indicators.insert(pending_.indicators.end(), indicators.begin(), indicators.end());
   ++pending_.count;
 }
 
@@ -35,6 +36,7 @@ void ExchangeLogger::accept(std::uint32_t iterations, double residual) {
   move_to(rows_.wrenches, pending_.wrenches);
   move_to(rows_.parts, pending_.parts);
   move_to(rows_.ledger, pending_.ledger);
+  move_to(rows_.indicators, pending_.indicators);
   rows_.count += pending_.count;
   pending_.count = 0;
 }
@@ -54,6 +56,7 @@ std::optional<protocol::Message> ExchangeLogger::take() {
   message.add_array<double>("coupling", coupling_, {rows_.count, 2});
   message.add_array<double>("wrench_parts", rows_.parts, {rows_.count, bodies_, 2 * kWrenchRow});
   message.add_array<double>("ledger", rows_.ledger, {rows_.count, bodies_, kLedgerRow});
+  message.add_array<double>("indicator", rows_.indicators, {rows_.count, bodies_});
   rows_ = {};
   coupling_.clear();
   return message;

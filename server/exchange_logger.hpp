@@ -18,7 +18,8 @@ class ExchangeLogger {
 
   // A step of an exchange that may still be repeated.
   void add(std::uint64_t step, std::span<const double> kinematics, std::span<const fluid::Wrench> wrenches,
-           std::span<const fluid::WrenchParts> parts, std::span<const double> ledger);
+           std::span<const fluid::WrenchParts> parts, std::span<const double> ledger,
+           std::span<const double> indicators);
   // The steps added since the last call are those of an exchange: now they count; or never.
   void accept(std::uint32_t iterations, double residual);
   void drop();
@@ -30,7 +31,7 @@ class ExchangeLogger {
   std::size_t bodies_;
   struct Rows {
     std::uint64_t count = 0;
-    std::vector<double> kinematics, wrenches, parts, ledger;
+    std::vector<double> kinematics, wrenches, parts, ledger, indicators;
   };
 
   std::uint64_t first_step_ = 0;

@@ -67,6 +67,7 @@ fluid::Formulation to_formulation(const Formulation& formulation) {
   if (formulation.has_moment_floor()) result.moment_floor = formulation.moment_floor();
   if (formulation.has_courant()) result.courant = formulation.courant();
   if (formulation.has_shifting()) result.shifting = formulation.shifting();
+  if (formulation.has_spreading()) result.spreading = formulation.spreading();
   if (formulation.has_tension_control()) result.tension_control = formulation.tension_control();
   result.kernel = to_kernel(formulation.kernel());
   if (formulation.weights() == KERNEL_ALONE) result.weights = fluid::Weights::kernel;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "protocol/body_kind.hpp"
 #include "protocol/mass_properties.hpp"
 
 namespace sluice::server {
@@ -101,7 +102,7 @@ fluid::Kinematics initial_kinematics(const Body& body, int dimension) {
     const auto& q = body.orientation();
     k.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
   }
-  if (body.has_prescribed()) return k;
+  if (!protocol::starts_free(body)) return k;
   k.velocity = to_vector(body.velocity());
   if (dimension == 2 && body.angular_velocity_size() == 1) {
     k.angular_velocity.z() = body.angular_velocity(0);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fluid/body_step.hpp"
+#include "server/stability_watch.hpp"
 
 namespace sluice::server {
 
@@ -33,7 +34,9 @@ CouplingPlan plan_coupling(const Scene& scene, const fluid::Setup& setup, double
     BodyStability& body = plan.stability.emplace_back();
     const double mass = setup.bodies[b].free_mass;
     body.set_impedance(fluid::body_impedance(setup, b));
-    body.set_indicator(mass > 0 ? body.impedance() * static_cast<double>(steps) * step / mass : 0);
+    const double time = static_cast<double>(steps) * step;
+    const std::optional<WetSurface> surface = wet_surface(scene, b, setup.bodies[b]);
+    body.set_indicator(surface ? time * std::max(body.impedance() / mass, surface->whole_rate()) : 0);
     body.set_allowed(allowed_indicator(steps));
   }
   if (plan.coupling.scheme() != AUTO) return plan;

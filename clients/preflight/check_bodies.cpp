@@ -11,29 +11,42 @@ double support_of(const Layout& layout) {
   return 2 * layout.scene.formulation().smoothing() * layout.spacing;
 }
 
+// Without the rule, in front of a body thinner than two supports liquid sees the particles of its other side,
+// and behind one thinner than a support the liquid there.
+void check_without_rule(const BodyLayout& body, double width, const Layout& layout, Findings& findings) {
+  const double support = support_of(layout);
+  if (width >= 2 * support) return;
+  const bool is_round = std::holds_alternative<rigid::Ball>(body.placed.shape);
+  findings.warning(
+      body.field,
+      fmt::format(
+          "body '{}' is {:.4g} m thick at its thinnest, less than {} of {:.4g} m: {}; {}take a spacing "
+          "below {:.3g} m",
+          body.name, width, width < support ? "the support" : "two supports", support,
+          width < support ? "liquid on opposite sides interacts through it"
+                          : "liquid on one side feels the pressure of the other",
+          is_round ? ""
+                   : "make it of boxes or convex polygons, which keep their sides apart, as bodies with "
+                     "fixed joints between them, or ",
+          layout.spacing * width / (2 * support)));
+}
+
 void check_thickness(const BodyLayout& body, const Layout& layout, Findings& findings) {
-  const double width = rigid::thickness(body.placed.shape, layout.dimension), support = support_of(layout);
-  if (width < layout.spacing * (1 - 1e-9)) {
+  const double width = body.thickness, support = support_of(layout);
+  if (width < layout.spacing * (1 - 1e-9))
     findings.error(
         body.field,
         fmt::format("body '{}' is {:.4g} m thick, thinner than one particle spacing of {:g} m; make "
                     "it thicker or the spacing smaller",
                     body.name, width, layout.spacing));
-  } else if (!std::holds_alternative<rigid::Box>(body.placed.shape) &&
-             !std::holds_alternative<rigid::Polygon>(body.placed.shape)) {
-    if (width < support)
-      findings.warning(
-          body.field,
-          fmt::format("body '{}' is {:.4g} m across, less than the support of {:.4g} m: liquid on "
-                      "opposite sides interacts through it; a spacing below {:.3g} m avoids this",
-                      body.name, width, support, layout.spacing * width / support));
-  } else if (width < 2 * support) {
+  else if (!body.has_plate_rule)
+    check_without_rule(body, width, layout, findings);
+  else if (width < 2 * support)
     findings.warning(
         body.field,
         fmt::format("body '{}' is {:.4g} m thick, thinner than two supports of {:.4g} m: the "
                     "thin-plate rule keeps its sides apart; nothing to do unless its edges matter",
                     body.name, width, support));
-  }
 }
 
 void check_parts(const BodyLayout& body, const Layout& layout, Findings& findings) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "clients/preflight/thickness.hpp"
 #include "clients/rigid/convert.hpp"
 #include "protocol/mass_properties.hpp"
 #include "protocol/scene_check.hpp"
@@ -80,7 +81,9 @@ void lay_out(const Body& body, int index, Layout& layout, Findings& findings) {
                              key_times(body.prescribed()),
                              motion_end(body, layout.scene.duration()),
                              body.displaces_fluid(),
-                             protocol::moments(body, layout.dimension).volume});
+                             protocol::moments(body, layout.dimension).volume,
+                             least_thickness(body, layout.dimension),
+                             has_plate_rule(body)});
   } catch (const std::invalid_argument& error) {
     findings.error(field, fmt::format("body '{}': {}", body.name(), error.what()));
   }

@@ -38,7 +38,7 @@ std::vector<std::uint64_t> checksums(const Message& log, const std::vector<layou
 }  // namespace
 
 template <typename Make>
-ExchangeTable::ExchangeTable(hsize_t bodies, Make make) : fields_(layout::exchange_fields(bodies)) {
+ExchangeTable::ExchangeTable(std::vector<layout::Field> fields, Make make) : fields_(std::move(fields)) {
   using Row = h5::Shape;
   step_ = make.template operator()<std::uint64_t>(layout::kExchangeStep, Row{}, "");
   time_ns_ = make.template operator()<std::int64_t>(layout::kExchangeTimeNs, Row{}, "ns");
@@ -48,14 +48,17 @@ ExchangeTable::ExchangeTable(hsize_t bodies, Make make) : fields_(layout::exchan
 }
 
 ExchangeTable ExchangeTable::create(hid_t file, hsize_t bodies, h5::Storage storage) {
-  return {bodies, [&]<typename T>(const std::string& path, const h5::Shape& row, const std::string& unit) {
+  return {layout::exchange_fields(bodies),
+          [&]<typename T>(const std::string& path, const h5::Shape& row, const std::string& unit) {
             return h5::Series::create<T>(file, path, row, unit, storage);
           }};
 }
 
-ExchangeTable ExchangeTable::open(hid_t file, hsize_t bodies) {
-  return {bodies, [&]<typename T>(const std::string& path, const h5::Shape& row,
-                                  const std::string& /*unit*/) { return h5::Series::open(file, path, row); }};
+ExchangeTable ExchangeTable::open(hid_t file, hsize_t bodies, int format) {
+  return {layout::exchange_fields(bodies, format),
+          [&]<typename T>(const std::string& path, const h5::Shape& row, const std::string& /*unit*/) {
+            return h5::Series::open(file, path, row);
+          }};
 }
 
 void ExchangeTable::check(const Message& message) const {

@@ -14,7 +14,7 @@ namespace sluice::clients {
 class ExchangeTable {
  public:
   static ExchangeTable create(hid_t file, hsize_t bodies, h5::Storage storage = h5::Storage::kPlain);
-  static ExchangeTable open(hid_t file, hsize_t bodies);
+  static ExchangeTable open(hid_t file, hsize_t bodies, int format = layout::kFormat);
 
   // Throws ProtocolError, having written nothing, when the log does not continue the recorded steps.
   void append(const protocol::Message& log, const protocol::StepClock& clock);
@@ -27,7 +27,7 @@ class ExchangeTable {
 
  private:
   template <typename Make>
-  ExchangeTable(hsize_t bodies, Make make);
+  ExchangeTable(std::vector<layout::Field> fields, Make make);
   void check(const protocol::Message& log) const;
 
   std::vector<layout::Field> fields_;

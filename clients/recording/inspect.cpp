@@ -6,6 +6,7 @@
 
 #include "clients/recording/ledger.hpp"
 #include "clients/recording/selection.hpp"
+#include "protocol/body_kind.hpp"
 
 namespace sluice::clients {
 namespace {
@@ -50,7 +51,8 @@ const char* shape_name(const Body& body) {
 
 const char* motion_kind(const Body& body) {
   if (!body.has_prescribed()) return "free";
-  return body.prescribed().has_release() ? "prescribed, then free" : "prescribed";
+  if (body.prescribed().has_release()) return "prescribed, then free";
+  return protocol::is_partly_free(body) ? "prescribed along some axes" : "prescribed";
 }
 
 Json bodies(const Scene& scene) {
@@ -109,7 +111,7 @@ Json vector(const std::array<double, 3>& v) {
 Json ledger_json(const std::vector<BodyLedger>& bodies) {
   Json list = Json::array();
   for (const BodyLedger& body : bodies) {
-    Json entry = {{"body", body.name}, {"time", body.time}};
+    Json entry = {{"body", body.name}, {"since", body.since}, {"time", body.since + body.time}};
     for (const auto& [name, part] : body.impulses)
       entry["impulse"][name] = {{"force", vector(part.force)}, {"moment", vector(part.moment)}};
     entry["work_of_liquid"] = body.work_of_liquid;
@@ -117,6 +119,8 @@ Json ledger_json(const std::vector<BodyLedger>& bodies) {
       entry["momentum_change"] = vector(body.momentum_change);
       entry["third_law_residual"] = body.third_law_residual;
       entry["energy_created"] = body.energy_created;
+      for (const auto& [name, work] : body.works) entry["work"][name] = work;
+      entry["largest_indicator"] = {{"value", body.largest_indicator}, {"time", body.largest_indicator_time}};
       entry["iterations"] = {{"mean", body.mean_iterations}, {"most", body.most_iterations}};
       entry["largest_residual"] = body.largest_residual;
     }

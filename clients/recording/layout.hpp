@@ -9,12 +9,16 @@
 // Names and shapes in a recording; README.md describes them.
 namespace sluice::clients::layout {
 
-// Raised by any change that an older reader would misread. What the scene's output selects is of format 2,
-// other recordings of 1 still.
-inline constexpr int kFormat = 2;
-inline int format_of(const Scene& scene) {
+// Raised by any change that an older reader would misread. Bodies are of format 3, what the scene's output
+// selects of 2, other recordings of 1 still.
+inline constexpr int kFormat = 3;
+inline bool selects(const Scene& scene) {
   const bool is_whole = !protocol::particles_vary(scene) && protocol::particle_arrays(scene).size() == 4;
-  return is_whole && scene.output().precision() != FLOAT32 && protocol::particles_every(scene) == 1 ? 1 : 2;
+  return !is_whole || scene.output().precision() == FLOAT32 || protocol::particles_every(scene) != 1;
+}
+inline int format_of(const Scene& scene) {
+  if (scene.body_size() > 0) return 3;
+  return selects(scene) ? 2 : 1;
 }
 inline constexpr const char* kCreator = "sluice";
 
@@ -80,13 +84,17 @@ inline std::vector<Field> frame_fields(hsize_t bodies, hsize_t probes) {
   return fields;
 }
 
-// Arrays of an ExchangeLog, a row a step, all float64.
-inline std::vector<Field> exchange_fields(hsize_t bodies) {
-  return {{"kinematics", "/exchange/kinematics", {bodies, 19}, ""},
-          {"wrenches", "/exchange/wrenches", {bodies, 6}, ""},
-          {"coupling", "/exchange/coupling", {bodies > 0 ? hsize_t{2} : hsize_t{0}}, ""},
-          {"wrench_parts", "/exchange/wrench_parts", {bodies, 12}, ""},
-          {"ledger", "/exchange/ledger", {bodies, 15}, ""}};
+// Arrays of an ExchangeLog, a row a step, all float64. Before format 3 ledgers had contact and joints in one,
+// and nothing told of stability.
+inline std::vector<Field> exchange_fields(hsize_t bodies, int format = kFormat) {
+  std::vector<Field> fields{
+      {"kinematics", "/exchange/kinematics", {bodies, 19}, ""},
+      {"wrenches", "/exchange/wrenches", {bodies, 6}, ""},
+      {"coupling", "/exchange/coupling", {bodies > 0 ? hsize_t{2} : hsize_t{0}}, ""},
+      {"wrench_parts", "/exchange/wrench_parts", {bodies, 12}, ""},
+      {"ledger", "/exchange/ledger", {bodies, format < 3 ? hsize_t{15} : hsize_t{29}}, ""}};
+  if (format >= 3) fields.push_back({"indicator", "/exchange/indicator", {bodies}, ""});
+  return fields;
 }
 
 // A field of Energy; the dataset is /observables/energy/<name>/value.

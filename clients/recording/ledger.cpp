@@ -13,7 +13,10 @@ namespace {
 
 using Row = std::span<const double>;
 
-constexpr std::size_t kKinematics = 19, kWrench = 6, kParts = 12, kLedger = 15;
+constexpr std::size_t kKinematics = 19, kWrench = 6, kParts = 12, kLedger = 29;
+// Where in a body's ledger each cause begins.
+constexpr std::size_t kContact = 6, kJoints = 15, kDrive = 22;
+constexpr std::size_t kMass = 14;
 constexpr std::uint32_t kBlock = 256;  // steps read at once
 
 double dot(Row a, Row b) {
@@ -26,15 +29,25 @@ double norm(Row a) {
 // The sums over the steps of one body.
 class Sums {
  public:
-  Sums(const Body& body, Row kinematics, Row wrench) : is_free_(!body.has_prescribed()) {
+  Sums(const Body& body, Row kinematics, Row wrench) {
     result_.name = body.name();
-    std::copy_n(kinematics.begin(), 3, start_.begin());
+    std::copy_n(kinematics.begin(), 3, running_.place.begin());
     std::copy(wrench.begin(), wrench.end(), wrench_.begin());
   }
 
-  // A step begins an exchange: what the body had then.
-  void begin(Row ledger) {
-    if (steps_ == 0) std::copy(ledger.begin(), ledger.end(), first_.begin());
+  // A step begins an exchange: what the body had then. From where it is free the sums are those since.
+  void begin(Row ledger, double time) {
+    const bool is_free = ledger[kMass] > 0;
+    if (is_free && !is_free_) {
+      result_.since = time;
+      std::copy(ledger.begin(), ledger.end(), first_.begin());
+      start_ = running_.place;
+      running_ = {};
+      running_.place = start_;
+      steps_ = 0;
+      iterations_ = 0;
+    }
+    is_free_ = is_free;
     std::copy(ledger.begin(), ledger.end(), last_.begin());
     settled_ = running_;
   }
@@ -62,6 +75,12 @@ class Sums {
     iterations_ += coupling[0];
     result_.most_iterations = std::max(result_.most_iterations, static_cast<int>(coupling[0]));
     result_.largest_residual = std::max(result_.largest_residual, coupling[1]);
+  }
+
+  void note_indicator(double indicator, double time) {
+    if (indicator <= result_.largest_indicator) return;
+    result_.largest_indicator = indicator;
+    result_.largest_indicator_time = time;
   }
 
   BodyLedger finish(Row gravity) {
@@ -93,15 +112,25 @@ class Sums {
   }
 
   void balance(const Totals& sum, Row gravity) {
-    const double mass = last_[14];
+    const double mass = last_[kMass];
     std::array<double, 6> weight{}, constraints{};
-    double fall = 0, residual = 0;
-    for (std::size_t c = 0; c < 6; ++c) {
-      if (c < 3) weight[c] = mass * gravity[c] * sum.time;
-      constraints[c] = last_[6 + c] - first_[6 + c];
-    }
+    double fall = 0, residual = 0, work = 0;
+    for (std::size_t c = 0; c < 3; ++c) weight[c] = mass * gravity[c] * sum.time;
     add_impulse("gravity", weight);
-    add_impulse("contact and joints", constraints);
+    const auto add_given = [&](const char* name, std::size_t at) {
+      std::array<double, 6> given{};
+      for (std::size_t c = 0; c < 6; ++c) {
+        given[c] = last_[at + c] - first_[at + c];
+        constraints[c] += given[c];
+      }
+      const double done = last_[at + 6] - first_[at + 6];
+      work += done;
+      add_impulse(name, given);
+      result_.works.emplace_back(name, done);
+    };
+    add_given("contact", kContact);
+    add_given("joints", kJoints);
+    add_given("drive and locks", kDrive);
     for (std::size_t c = 0; c < 3; ++c) {
       result_.momentum_change[c] = last_[c] - first_[c];
       fall += mass * gravity[c] * (sum.place[c] - start_[c]);
@@ -109,12 +138,12 @@ class Sums {
       residual += missing * missing;
     }
     if (sum.given > 0) result_.third_law_residual = std::sqrt(residual) / sum.given;
-    const double gained = last_[13] - first_[13] - (last_[12] - first_[12]) - fall;
+    const double gained = last_[13] - first_[13] - work - fall;
     if (sum.passed > 0) result_.energy_created = (gained - sum.work) / sum.passed;
     result_.mean_iterations = iterations_ / static_cast<double>(steps_);
   }
 
-  bool is_free_;
+  bool is_free_ = false;
   BodyLedger result_;
   std::uint64_t steps_ = 0;
   double iterations_ = 0;
@@ -161,13 +190,15 @@ std::vector<BodyLedger> read_ledgers(const Reader& recording) {
     const protocol::Message log = recording.exchange_log(first, count);
     const Row kinematics = log.array<double>("kinematics"), wrenches = log.array<double>("wrenches"),
               parts = log.array<double>("wrench_parts"), ledger = log.array<double>("ledger"),
-              coupling = log.array<double>("coupling");
+              coupling = log.array<double>("coupling"), indicators = log.array<double>("indicator");
     for (std::uint32_t k = 0; k < count; ++k) {
       const bool begins = first + k == next_exchange;
+      const double start = protocol::seconds(clock.time(first + k - 1));
       if (begins) next_exchange = clock.exchange_end(next_exchange, most) + 1;
       for (std::size_t b = 0; b < sums.size(); ++b) {
         const std::size_t r = k * sums.size() + b;
-        if (begins) sums[b].begin(ledger.subspan(r * kLedger, kLedger));
+        if (begins) sums[b].begin(ledger.subspan(r * kLedger, kLedger), start);
+        sums[b].note_indicator(indicators[r], protocol::seconds(clock.time(first + k)));
         sums[b].add(protocol::seconds(clock.duration(first + k)),
                     kinematics.subspan(r * kKinematics, kKinematics), wrenches.subspan(r * kWrench, kWrench),
                     parts.subspan(r * kParts, kParts), coupling.subspan(2 * k, 2));
@@ -182,15 +213,21 @@ std::vector<BodyLedger> read_ledgers(const Reader& recording) {
 
 std::string to_text(const BodyLedger& ledger) {
   std::string text =
-      fmt::format("ledger     {}, to t = {:.6g} s; impulses and their moments\n", ledger.name, ledger.time);
+      fmt::format("ledger     {}, {}to t = {:.6g} s; impulses and their moments\n", ledger.name,
+                  ledger.since > 0 ? fmt::format("free, from t = {:.6g} ", ledger.since) : "",
+                  ledger.since + ledger.time);
   for (const auto& [name, impulse] : ledger.impulses) text += row(name, impulse);
   text += fmt::format("  {:<20}{:>12.5g} J\n", "work of liquid", ledger.work_of_liquid);
   if (!ledger.is_free) return text;
+  for (const auto& [name, work] : ledger.works)
+    text += fmt::format("  {:<20}{:>12.5g} J\n", "work of " + name, work);
   text += fmt::format("  {:<20}{:>12.5g}{:>12.5g}{:>12.5g} N s\n", "change of momentum",
                       ledger.momentum_change[0], ledger.momentum_change[1], ledger.momentum_change[2]);
   text += fmt::format("  {:<20}{:>12.2g} of the liquid's impulse\n", "third-law residual",
                       ledger.third_law_residual);
   text += fmt::format("  {:<20}{:>12.2g} of the work that passed\n", "energy created", ledger.energy_created);
+  text += fmt::format("  {:<20}{:>12.3g} with what was wet at t = {:.6g} s\n", "largest indicator",
+                      ledger.largest_indicator, ledger.largest_indicator_time);
   text += fmt::format("  {:<20}{:>12.2f} an exchange, at most {}, residual up to {:.2g}\n", "iterations",
                       ledger.mean_iterations, ledger.most_iterations, ledger.largest_residual);
   return text;

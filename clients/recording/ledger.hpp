@@ -18,15 +18,19 @@ struct BodyLedger {
 
   std::string name;
   bool is_free = false;
-  double time = 0;  // that it covers, from the start [s]
-  // By name: pressure, viscous, penetration; of a free body gravity, and contact and joints.
+  double since = 0,
+         time = 0;  // when it begins, at the start or where the body is released; that it covers [s]
+  // By name: pressure, viscous, penetration; of a free body gravity, contact, joints, drive and locks. In
+  // recordings before format 3 what joints gave is under contact.
   std::vector<std::pair<std::string, Impulse>> impulses;
   double work_of_liquid = 0;  // on the body, as the liquid's steps did it [J]
 
   // Of a free body only.
-  std::array<double, 3> momentum_change{};  // [kg m/s]
-  double third_law_residual = 0;            // momentum change less all impulses, over those of the liquid [-]
-  double energy_created = 0;                // at the interface, over the work that passed through it [-]
+  std::vector<std::pair<std::string, double>> works;         // of contact, joints, drive and locks [J]
+  double largest_indicator = 0, largest_indicator_time = 0;  // of BodyStability with what was wet [-], [s]
+  std::array<double, 3> momentum_change{};                   // [kg m/s]
+  double third_law_residual = 0;  // momentum change less all impulses, over those of the liquid [-]
+  double energy_created = 0;      // at the interface, over the work that passed through it [-]
   double mean_iterations = 0, largest_residual = 0;
   int most_iterations = 0;
 };

@@ -60,6 +60,28 @@ Welcome read_welcome(hid_t file) {
   return welcome;
 }
 
+// Of a recording before format 3, where what joints gave counts as contact, and no stability is known.
+Message as_format_3(const Message& log) {
+  Message result;
+  result.header = log.header;
+  result.header.clear_array();
+  for (const Array& array : log.header.array()) {
+    const auto values = log.array<double>(array.name());
+    if (array.name() != "ledger") {
+      result.add_array<double>(array.name(), values, {array.shape().begin(), array.shape().end()});
+      continue;
+    }
+    const std::uint64_t steps = array.shape(0), bodies = array.shape(1), had = array.shape(2), has = 29;
+    std::vector<double> wide(steps * bodies * has, 0.0);
+    for (std::size_t r = 0; r < steps * bodies; ++r)
+      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(r * had), had,
+                  wide.begin() + static_cast<std::ptrdiff_t>(r * has));
+    result.add_array<double>("ledger", wide, {steps, bodies, has});
+    result.add_array<double>("indicator", std::vector<double>(steps * bodies, 0.0), {steps, bodies});
+  }
+  return result;
+}
+
 double number(const std::string& text) {
   double value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -118,7 +140,7 @@ class Reader::File {
   void open_tables() {
     const auto bodies = static_cast<hsize_t>(welcome.scene().body_size());
     frame_table = FrameTable::open(file, welcome);
-    exchange_table = ExchangeTable::open(file, bodies);
+    exchange_table = ExchangeTable::open(file, bodies, h5::integer(file, "/parameters", "format"));
     frames = frame_table->length();
     exchanges = exchange_table->length();
     if (ending == Ending::kFinished) return;
@@ -230,7 +252,8 @@ Message Reader::exchange_log(std::uint64_t first_step, std::uint32_t count) cons
     if (!file_->exchange_table->intact(message))
       throw h5::Error(fmt::format("the exchanges of steps {} to {} are not what was written", first_step,
                                   first_step + count - 1));
-    return file_->signed_message(std::move(message));
+    const int format = h5::integer(file_->file, "/parameters", "format");
+    return file_->signed_message(format < 3 ? as_format_3(message) : std::move(message));
   });
 }
 

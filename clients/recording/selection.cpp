@@ -8,7 +8,7 @@ namespace sluice::clients {
 
 std::string selection_text(const Reader& recording) {
   const Scene& scene = recording.scene();
-  if (layout::format_of(scene) == 1) return "";
+  if (!layout::selects(scene)) return "";
   std::string names;
   for (const protocol::ParticleArray& array : protocol::particle_arrays(scene))
     if (array.field != PARTICLE_FIELD_UNSPECIFIED)

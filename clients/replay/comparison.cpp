@@ -70,6 +70,10 @@ std::string element(const Message& message, const Array& array, std::size_t k, c
   if (array.name() == "ledger")
     return fmt::format("ledger of body {} at step {}", scene.body(static_cast<int>(row % bodies)).name(),
                        message.header.exchange_log().first_step() + row / bodies);
+  if (array.name() == "indicator")
+    return fmt::format("stability indicator of body {} at step {}",
+                       scene.body(static_cast<int>(k % bodies)).name(),
+                       message.header.exchange_log().first_step() + k / bodies);
   const char* name = width == kWrench.size() ? kWrench[k % width] : kKinematics.at(k % width);
   if (!message.header.has_exchange_log()) return fmt::format("{} of body {}", name, body);
   return fmt::format("{} of body {} at step {}", name, body,

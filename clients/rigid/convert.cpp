@@ -151,6 +151,9 @@ rigid::BodySpec to_body(const Body& body, const rigid::Contact& contact, int dim
     spec.locked_rotation[static_cast<std::size_t>(axis - X_AXIS)] = true;
   if (!body.has_prescribed()) return spec;
   spec.motion = to_motion(body, dimension);
+  for (const int axis : body.free()) spec.free[static_cast<std::size_t>(axis - X_AXIS)] = true;
+  for (const int axis : body.free_rotation())
+    spec.free_rotation[static_cast<std::size_t>(axis - X_AXIS)] = true;
   if (body.prescribed().has_release()) spec.release = body.prescribed().release();
   return spec;
 }

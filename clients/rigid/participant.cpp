@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kRow = 19;        // doubles of a body's kinematics
 constexpr std::size_t kWrenchRow = 6;   // doubles of a body's wrench
-constexpr std::size_t kLedgerRow = 15;  // doubles of a body's ledger
+constexpr std::size_t kLedgerRow = 29;  // doubles of a body's ledger
 constexpr std::uint32_t kBatch = 64;    // steps of a message when streaming
 constexpr std::size_t kUnanswered = 2;  // batches on their way when streaming
 
@@ -184,13 +184,21 @@ class Participant {
 
   void note_ledger() {
     ledger_.clear();
+    const auto add = [this](const rigid::Wrench& pair) {
+      ledger_.insert(ledger_.end(), pair.force.begin(), pair.force.end());
+      ledger_.insert(ledger_.end(), pair.moment.begin(), pair.moment.end());
+    };
+    const auto add_given = [&](const rigid::Given& given) {
+      add(given.impulse);
+      ledger_.push_back(given.work);
+    };
     for (std::size_t b = 0; b < world_.size(); ++b) {
       const rigid::Account account = world_.is_free(b) ? world_.account(b) : rigid::Account{};
-      for (const rigid::Wrench& pair : {account.momentum, account.constraint_impulse}) {
-        ledger_.insert(ledger_.end(), pair.force.begin(), pair.force.end());
-        ledger_.insert(ledger_.end(), pair.moment.begin(), pair.moment.end());
-      }
-      ledger_.insert(ledger_.end(), {account.constraint_work, account.kinetic_energy, account.mass});
+      add(account.momentum);
+      add_given(account.contact);
+      ledger_.insert(ledger_.end(), {account.kinetic_energy, account.mass});
+      add_given(account.joints);
+      add_given(account.drive);
     }
   }
 

@@ -16,7 +16,7 @@ namespace sluice::clients {
 // Bodies integrate every fluid step, under a guess of the wrenches to come; what the answer's impulse has
 // more than the guess's is given to them at the end, so that momentum closes whatever the guess was.
 //
-//   explicit   F_k, for k > 0, the mean of the last answer
+//   explicit   F_k, for k > 0, the last answer, extrapolated
 //   implicit   F_k iterated, and a body moves in step k under (F_{k-1} + F_k)/2, which makes it answer within
 //              the step
 class Window {

@@ -105,6 +105,16 @@ TEST_F(Resume, AStackInContactInSpace) {
   expect_resumable("box_stack", {"--set", "spacing=0.04"}, "0.1", "0.2");
 }
 
+TEST_F(Resume, ABodyThatIsTowedAndLetGo) {
+  expect_resumable(
+      "falling_cylinder",
+      {"--set", "spacing=0.022", "--set", "body[0].prescribed={constant {velocity: [0.4, 0]} release: 0.28}",
+       "--set", "body[0].free=[Y_AXIS]"},
+      "0.2", "0.35");
+  const Outcome redriven = redrive("part.h5", "1");
+  EXPECT_EQ(redriven.out, "identical\n") << redriven.err;
+}
+
 TEST_F(Resume, JointsWithSpringsAndDampers) {
   expect_resumable("flap_in_waves", {"--set", "spacing=0.08"}, "0.5", "0.9");
 }

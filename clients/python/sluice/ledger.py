@@ -8,7 +8,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-GRAVITY, CONSTRAINTS = "gravity", "contact and joints"
+GRAVITY = "gravity"
+# Where the impulses of what acts on a body besides liquid and gravity begin in a row of its ledger. Before format 3 a row ended
+# with the mass, and what joints gave was under contact.
+CAUSES = {"contact": 6, "joints": 15, "drive and locks": 22}
 
 
 @dataclass
@@ -30,7 +33,7 @@ def exchange_begins(run, steps):
 
 
 def ledgers(run):
-    """One for each body: of a free one with an entry for each exchange whose outcome is known, of others for each step."""
+    """One for each body: of a free one with an entry for each exchange from where it is free, of others for each step."""
     time, kinematics, wrenches, parts, states = run.exchange("wrench_parts", "ledger")
     dt = np.diff(time, prepend=0.0)
     start = run.body_wrench(0), run.body_kinematics(0)
@@ -56,18 +59,26 @@ def _ledger(run, b, time, dt, kinematics, wrench, parts, states, first_wrench, b
     work = np.cumsum(dt * power)
     given = np.cumsum(dt * np.linalg.norm(mean[:, :3], axis=1))
     ledger = Ledger(run.bodies[b], time, impulses, work)
-    if "prescribed" in run.scene["body"][b]:
+    # What the body has at the beginning of an exchange is due to the steps before it. Where it is not free it has no mass.
+    free = np.flatnonzero(begins & (states[:, 14] > 0))
+    if len(free) < 2:
         return ledger
-    # What the body has at the beginning of an exchange is due to the steps before it.
-    at = np.flatnonzero(begins)[1:]
-    ledger.time, ledger.work = time[at - 1], work[at - 1]
-    ledger.impulses = {name: values[at - 1] for name, values in impulses.items()}
+    first, at = free[0], free[1:]
+
+    def since(values):
+        return values[at - 1] - (values[first - 1] if first else 0)
+
+    start = time[first - 1] if first else 0.0
+    ledger.time, ledger.work = time[at - 1], since(work)
+    ledger.impulses = {name: since(values) for name, values in impulses.items()}
     gravity = np.zeros(6)
     gravity[: run.dimension] = run.scene.get("gravity", [0.0] * run.dimension)
-    ledger.impulses[GRAVITY] = states[at, 14, None] * gravity * ledger.time[:, None]
-    ledger.impulses[CONSTRAINTS] = states[at, 6:12] - states[0, 6:12]
-    ledger.momentum = states[at, 0:3] - states[0, 0:3]
+    ledger.impulses[GRAVITY] = states[at, 14, None] * gravity * (ledger.time - start)[:, None]
+    for name, column in CAUSES.items():
+        if column < states.shape[1]:
+            ledger.impulses[name] = states[at, column : column + 6] - states[first, column : column + 6]
+    ledger.momentum = states[at, 0:3] - states[first, 0:3]
     missing = ledger.momentum - sum(values[:, :3] for values in ledger.impulses.values())
     with np.errstate(invalid="ignore", divide="ignore"):
-        ledger.residual = np.linalg.norm(missing, axis=1) / given[at - 1]
+        ledger.residual = np.linalg.norm(missing, axis=1) / since(given)
     return ledger

@@ -8,7 +8,7 @@ import numpy as np
 
 from sluice import probes
 
-FORMAT = 2  # and those before
+FORMAT = 3  # and those before
 FIELDS = {"position": "m", "velocity": "m/s", "density": "kg/m³", "pressure": "Pa", "liquid": ""}
 DERIVED = {"speed": "m/s"}
 ENERGIES = ("kinetic", "potential", "elastic", "boundary_work")

@@ -20,6 +20,8 @@ class Status:
     steps: int
     time: float  # [s]
     steps_per_second: float
+    # Of every body, how near the exchange with it is to instability (Status in protocol/messages.proto); empty without free ones.
+    indicator: tuple = ()
 
 
 @dataclass
@@ -143,7 +145,7 @@ class Watcher:
             self.end = header.end
         elif content == "status" and self._wants_status:
             status = header.status
-            return Status(header.step, status.steps, time, status.steps_per_second)
+            return Status(header.step, status.steps, time, status.steps_per_second, tuple(status.indicator))
         elif content == "frame":
             a = arrays_of(header, frames)
             measured = _probes(self.scene, a.get("probe", []))

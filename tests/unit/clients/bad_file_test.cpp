@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "clients/recording/layout.hpp"
 #include "clients/recording/reader.hpp"
 #include "clients/recording/writer.hpp"
 #include "tests/unit/clients/fake_run.hpp"
@@ -67,12 +68,12 @@ TEST(BadFile, NewerFormatIsRefusedByItsNumber) {
   const hid_t file = H5Fopen((directory / "run.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   const hid_t parameters = H5Gopen2(file, "/parameters", H5P_DEFAULT);
   const hid_t format = H5Aopen(parameters, "format", H5P_DEFAULT);
-  const int newer = 3;
+  const int newer = layout::kFormat + 1;
   H5Awrite(format, H5T_NATIVE_INT, &newer);
   H5Aclose(format);
   H5Gclose(parameters);
   H5Fclose(file);
-  EXPECT_THAT(refusal(directory / "run.h5"), AllOf(HasSubstr("format 3"), HasSubstr("reads format 1 to 2")));
+  EXPECT_THAT(refusal(directory / "run.h5"), AllOf(HasSubstr("format 4"), HasSubstr("reads format 1 to 3")));
 }
 
 TEST(BadFile, CutAtAnyPlaceIsRefused) {

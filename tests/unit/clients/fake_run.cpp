@@ -145,7 +145,8 @@ Message FakeRun::exchange_log(std::uint64_t index) const {
   const std::uint64_t columns = m > 0 ? 2 : 0;
   add(message, "coupling", noise(steps_per_frame * columns, 3000 + index), {steps_per_frame, columns});
   add(message, "wrench_parts", noise(steps_per_frame * m * 12, 4000 + index), {steps_per_frame, m, 12});
-  add(message, "ledger", noise(steps_per_frame * m * 15, 5000 + index), {steps_per_frame, m, 15});
+  add(message, "ledger", noise(steps_per_frame * m * 29, 5000 + index), {steps_per_frame, m, 29});
+  add(message, "indicator", noise(steps_per_frame * m, 6000 + index), {steps_per_frame, m});
   return message;
 }
 

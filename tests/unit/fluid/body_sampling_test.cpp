@@ -129,6 +129,26 @@ TEST(SamplePlate, HasLayersOfItsOwnForEveryFace) {
   }
 }
 
+// A body whose centre of mass is given is a compound of one part.
+TEST(SamplePlate, KeepsItsFacesInAnotherFrame) {
+  const BoxShape box{{0.1, 0.6, 0}};
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
+  const Eigen::Vector3d shift(0.2, -0.1, 0);
+  const Boundary plate = sample_body(box, kSpacing, kSupport, 2);
+  const Boundary placed = sample_body(CompoundShape{{{box, shift, turn}}}, kSpacing, kSupport, 2);
+  ASSERT_EQ(placed.position.size(), plate.position.size());
+  ASSERT_EQ(placed.faces.size(), 4u);
+  EXPECT_EQ(placed.face, plate.face);
+  for (std::size_t w = 0; w < plate.position.size(); ++w) {
+    EXPECT_NEAR((placed.position[w] - shift - turn * plate.position[w]).norm(), 0, 1e-15);
+    EXPECT_NEAR((placed.to_surface[w] - turn * plate.to_surface[w]).norm(), 0, 1e-15);
+  }
+  for (std::size_t f = 0; f < 4; ++f) {
+    EXPECT_NEAR((placed.faces[f].point - shift - turn * plate.faces[f].point).norm(), 0, 1e-15);
+    EXPECT_NEAR((placed.faces[f].normal - turn * plate.faces[f].normal).norm(), 0, 1e-15);
+  }
+}
+
 TEST(SamplePlate, InSpaceHasSixFaces) {
   const Boundary body = sample_body(BoxShape{{0.1, 0.6, 0.5}}, kSpacing, kSupport, 3);
   ASSERT_EQ(body.faces.size(), 6u);

@@ -1,5 +1,6 @@
 #include "clients/preflight/preflight.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -168,6 +169,32 @@ TEST_F(PreflightTest, motion_fast_against_sound) {
   const Preflight result = check(moving("constant { velocity: [0, 5] }"));
   EXPECT_THAT(result.errors, IsEmpty());
   EXPECT_THAT(result.warnings, ElementsAre(problem("body[0].prescribed", "moves at up to 5 m/s")));
+}
+
+// Shapes that the thin-plate rule does not know, by what is thin of them; two supports are 0.058 m.
+TEST_F(PreflightTest, thin_bodies_without_the_plate_rule) {
+  const auto shape = [](const std::string& text) {
+    return "body { name: \"hull\" " + text + " density: 500 position: [0.7, 0.4] }";
+  };
+  const auto angle = [&](double t) {
+    return shape(fmt::format(
+        "polygon {{ vertex {{}} vertex {{ x: 0.3 }} vertex {{ x: 0.3 y: {0} }} vertex {{ x: {0} y: "
+        "{0} }} vertex {{ x: {0} y: 0.2 }} vertex {{ y: 0.2 }} }}",
+        t));
+  };
+  EXPECT_THAT(check(angle(0.06)).warnings, IsEmpty());
+  EXPECT_THAT(
+      check(angle(0.04)).warnings,
+      ElementsAre(problem("body[0]", "body 'hull' is 0.04 m thick at its thinnest, less than two supports")));
+  EXPECT_THAT(check(angle(0.02)).warnings, ElementsAre(problem("body[0]", "interacts through it")));
+  EXPECT_THAT(check(angle(0.02)).warnings, ElementsAre(problem("body[0]", "take a spacing below 0.00345 m")));
+  EXPECT_THAT(check(angle(0.009)).errors,
+              ElementsAre(problem("body[0]", "thinner than one particle spacing")));
+  const std::string part = "part { box { size: [0.2, 0.03] } position: [";
+  EXPECT_THAT(check(shape("compound { " + part + "0, 0] } " + part + "0.2, 0] } }")).warnings,
+              ElementsAre(problem("body[0]", "0.03 m thick")));
+  EXPECT_THAT(check(shape("ball { radius: 0.02 }")).warnings,
+              ElementsAre(problem("body[0]", "0.04 m thick")));
 }
 
 TEST_F(PreflightTest, thin_bodies) {

@@ -61,6 +61,36 @@ TEST(Bodies, LocksContactAndInertiaAreChecked) {
       HasSubstr("body[0].prescribed.release: makes the body free, which has neither density nor mass"));
 }
 
+TEST(Bodies, AxesBesideAPrescribedMotionAreChecked) {
+  const auto errors = [](const std::string& line) {
+    return errors_of(with_line(12, "  density: 500 prescribed { constant { velocity: [1, 0] } } " + line));
+  };
+  EXPECT_EQ(errors("free: [Y_AXIS] free_rotation: [Z_AXIS] velocity: [0, 2] angular_velocity: 1"), "");
+  EXPECT_THAT(errors("free: [X_AXIS]"),
+              HasSubstr("body[0].free[0]: is where the prescribed motion moves the body"));
+  EXPECT_THAT(errors("free: [Z_AXIS]"), HasSubstr("body[0].free[0]: does not exist in two dimensions"));
+  EXPECT_THAT(errors("free: [Y_AXIS] locked: [Y_AXIS]"), HasSubstr("body[0].free[0]: is locked too"));
+  EXPECT_THAT(errors("free: [Y_AXIS] velocity: [1, 2]"),
+              HasSubstr("body[0].velocity[0]: is along an axis that the motion prescribes"));
+  EXPECT_THAT(errors("velocity: [0, 2]"), HasSubstr("body[0].velocity: is for free bodies"));
+  EXPECT_THAT(errors_of(with_line(12, "  density: 500 free: [Y_AXIS]")),
+              HasSubstr("body[0].free: is for bodies with a prescribed motion"));
+  const auto of_motion = [](const std::string& motion) {
+    return errors_of(with_line(12, "  density: 500 free_rotation: [Z_AXIS] prescribed { " + motion + " }"));
+  };
+  EXPECT_EQ(of_motion("sinusoid { offset: [0.1, 0] frequency: 1 }"), "");
+  for (const char* motion : {"sinusoid { angle: 0.1 frequency: 1 }", "ramp { angle: 0.1 duration: 1 }",
+                             "expression { angle: \"t\" }", "constant { angular_velocity: 1 }",
+                             "keyframes { key { time: 1 angle: 1 } }"})
+    EXPECT_THAT(of_motion(motion),
+                HasSubstr("body[0].free_rotation[0]: is where the prescribed motion moves"))
+        << motion;
+  EXPECT_THAT(of_motion("constant { velocity: [1, 0] } pivot: [0, 0]"),
+              HasSubstr("body[0].prescribed.pivot: moves the centre of mass by the angle"));
+  EXPECT_THAT(errors_of(with_line(12, "  free: [Y_AXIS] prescribed { constant { velocity: [1, 0] } }")),
+              HasSubstr("body[0]: makes the body free, which has neither density nor mass"));
+}
+
 TEST(Motions, NewKindsAreChecked) {
   const auto errors = [](const std::string& motion) {
     return errors_of(with_line(12, "  prescribed { " + motion + " }"));

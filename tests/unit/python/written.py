@@ -80,7 +80,7 @@ def write(path, values=None, scene=None, finish=None):
             file["exchange/checksum"] = np.zeros(len(values.step_time), np.uint64)
             file["exchange/kinematics"], file["exchange/wrenches"] = values.kinematics, values.wrenches
             file["exchange/wrench_parts"] = values.parts
-            file["exchange/ledger"] = np.zeros((len(values.step_time), 1, 15))
+            file["exchange/ledger"] = np.zeros((len(values.step_time), 1, 29))
         if scene.get("probe"):
             file["observables/probe/value"] = values.probe
         for name, series in values.energy.items():

@@ -313,7 +313,7 @@ TEST(World, goes_on_to_the_last_bit_from_its_state) {
   EXPECT_EQ(resumed.write_state(), state);
   EXPECT_EQ(advance(whole, 300, 1500), advance(resumed, 300, 1500));
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    EXPECT_EQ(whole.account(b).constraint_work, resumed.account(b).constraint_work);
+    EXPECT_EQ(whole.account(b).contact.work, resumed.account(b).contact.work);
   EXPECT_THROW(resumed.read_state(std::span(state).first(state.size() - 1)), std::invalid_argument);
 }
 

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <tuple>
+#include <vector>
+
+#include "fluid/half_space.hpp"
+#include "fluid/model.hpp"
+#include "fluid/parallel.hpp"
+#include "fluid/particles.hpp"
+
+namespace sluice::fluid {
+
+// Nothing ties the volumes m/rho to the room that particles take. Where they crowd there is more mass in a
+// room than rho says, which gravity pulls down: README.md, "Crowding". It is measured by
+//   c = m0 / (share of the support that liquid fills),
+// 1 on a lattice, at the surface too (half_space.hpp), and spread by Fick's law: particles drift with
+//   -S h c0 grad c,        grad c_i = sum_k V_k W_ik (g_i + G_i x_ki) (c_k - c_i) over the fluid,
+// velocity and density carried along with their gradients. At the surface they drift along it only, so it
+// does not move. Other than the shifting of shifting.hpp this sees no disorder of the lattice, only what
+// changes over a support; it is slow, and done once in kInterval steps. Spray, and what sees it, stays.
+template <int Dim>
+class Crowding {
+ public:
+  // `strength` is S; 0 switches it off.
+  template <typename Kernel>
+  Crowding(double strength, const Model<Dim, Kernel>& model)
+      : strength_(strength), half_space_(model.kernel, model.h, model.spacing) {}
+
+  [[nodiscard]] bool is_used() const { return strength_ > 0.0; }
+
+  // Goes on by dt [s], from the fits at the present positions; moves particles when it is time.
+  // for_fluid_near(i, visit) calls visit(k) for the fluid near i, and maybe others beyond the support.
+  template <typename Kernel, typename ForFluidNear>
+  void advance(double dt, const Model<Dim, Kernel>& model, const ForFluidNear& for_fluid_near,
+               const Parallel& parallel, Particles<Dim>& fluid) {
+    elapsed_ += dt;
+    if (++steps_ < kInterval) return;
+    measure(model, parallel, fluid);
+    const double diffusion = strength_ * model.h * model.eos.sound_speed() * elapsed_;
+    drift_.resize(fluid.size());
+    parallel.for_each(fluid.size(),
+                      [&](std::size_t i) { drift_[i] = drift(model, for_fluid_near, fluid, i, diffusion); });
+    parallel.for_each(fluid.size(), [&](std::size_t i) { move(drift_[i], i, fluid); });
+    elapsed_ = 0.0;
+    steps_ = 0;
+  }
+
+  auto state() { return std::tie(steps_, elapsed_); }
+
+ private:
+  // Steps between two drifts, of 0.1 h^2 grad c at S = 0.01 and a Courant number of 0.4. A tank at rest and a
+  // drop gave the same with 1, 10 and 30.
+  static constexpr int kInterval = 30;
+  // |m1|/(m0 h) from which on a particle is at the surface: 0.3 in the outermost row, 0.02 in the next.
+  static constexpr double kSurfaceOffset = 0.1;
+  // Thinner liquid is no half space.
+  static constexpr double kLeastShare = 0.6;
+
+  struct Crowd {
+    double c = 1;
+    bool is_spray = false;
+    bool is_at_surface = false;
+    bool is_thin = false;
+    Vec<Dim> normal = Vec<Dim>::Zero();  // of the surface
+  };
+  struct Drift {
+    Vec<Dim> way = Vec<Dim>::Zero();  // [m]
+    Vec<Dim> dv = Vec<Dim>::Zero();   // [m/s]
+  };
+
+  // Images have fits too, and are measured with the rest.
+  template <typename Kernel>
+  void measure(const Model<Dim, Kernel>& model, const Parallel& parallel, const Particles<Dim>& fluid) {
+    crowd_.resize(fluid.node.size());
+    parallel.for_each(crowd_.size(), [&](std::size_t i) {
+      const Fit<Dim>& fit = fluid.fit[i];
+      crowd_[i] = {.is_spray = fit.floored};
+      if (fit.floored) return;
+      const Vec<Dim> centre = -symmetric_inverse<Dim>(fit.G) * fit.g;  // m1/m0
+      const double offset = centre.norm() / model.h, share = half_space_.share(offset);
+      crowd_[i].c = fit.m0 / share;
+      crowd_[i].is_thin = share < kLeastShare;
+      crowd_[i].is_at_surface = offset > kSurfaceOffset;
+      if (crowd_[i].is_at_surface) crowd_[i].normal = centre.normalized();
+    });
+  }
+
+  // `diffusion` is S h c0 t [m^2].
+  template <typename Kernel, typename ForFluidNear>
+  Drift drift(const Model<Dim, Kernel>& model, const ForFluidNear& for_fluid_near,
+              const Particles<Dim>& fluid, std::size_t i, double diffusion) const {
+    const Crowd& crowd = crowd_[i];
+    if (crowd.is_spray || crowd.is_thin || fluid.is_buffer(i)) return {};
+    const Fit<Dim>& fit = fluid.fit[i];
+    Vec<Dim> grad_c = Vec<Dim>::Zero();
+    Mat<Dim> L = Mat<Dim>::Zero();
+    bool sees_spray = false;
+    for_fluid_near(i, [&](std::size_t k) {
+      const Vec<Dim> x_ki = fluid.node[k].x - fluid.node[i].x;
+      const double VW = fluid.node[k].volume * model.kernel.value(x_ki);
+      if (VW == 0.0) return;
+      sees_spray = sees_spray || crowd_[k].is_spray;
+      const Vec<Dim> slope = VW * (fit.g + fit.G * x_ki);
+      grad_c += (crowd_[k].c - crowd.c) * slope;
+      L += (fluid.node[k].v - fluid.node[i].v) * slope.transpose();
+    });
+    if (sees_spray) return {};
+    Vec<Dim> way = -diffusion * grad_c;
+    if (crowd.is_at_surface) way -= way.dot(crowd.normal) * crowd.normal;
+    return {way, L * way};
+  }
+
+  static void move(const Drift& drift, std::size_t i, Particles<Dim>& fluid) {
+    fluid.node[i].x += drift.way;
+    fluid.node[i].v += drift.dv;
+    fluid.node[i].rho += fluid.source[i].grad_rho.dot(drift.way);
+  }
+
+  double strength_;
+  HalfSpace<Dim> half_space_;
+  int steps_ = 0;
+  double elapsed_ = 0;  // since the last drift [s]
+  // Of the drift in hand:
+  std::vector<Crowd> crowd_;
+  std::vector<Drift> drift_;
+};
+
+}  // namespace sluice::fluid
