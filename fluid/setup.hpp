@@ -75,8 +75,8 @@ struct FluidParticles {
   std::vector<Eigen::Vector3d> position;  // [m]
   std::vector<Eigen::Vector3d> velocity;  // [m/s]
   std::vector<double> pressure;           // [Pa]; sets the density by the equation of state, CF (64)
-  std::vector<std::uint8_t> liquid;       // number in Setup::liquids; empty where those are
   double volume = 0;                      // [m^3], [m^2] in 2D
+  std::vector<std::uint8_t> liquid = {};  // number in Setup::liquids; empty where those are
 };
 
 // Boundary particles of one body, or of the walls, in the body's frame. A particle of a thin plate belongs to

@@ -82,9 +82,10 @@ void check_liquids(const Setup& setup) {
               f.weights == Weights::kernel_and_volume && f.internal_force == InternalForce::galerkin &&
               f.viscous_force == ViscousForce::stress && f.integrator == Integrator::kick_drift_kick &&
               f.quadrature == Quadrature::nodal && f.mass == Mass::physical && f.interpolated_motion == 0 &&
-              f.shifting == 0 && !f.tension_control && setup.openings.empty(),
+              f.shifting == 0 && f.spreading == 0 && !f.tension_control && setup.openings.empty(),
           "number of liquids", static_cast<double>(setup.liquids.size()),
-          "several are built for the default formulation without shifting, tension control and openings");
+          "several are built for the default formulation without shifting, spreading, tension control and "
+          "openings");
 }
 
 void check(const Setup& setup) {

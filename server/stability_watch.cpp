@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "protocol/body_kind.hpp"
+#include "protocol/liquids.hpp"
 #include "server/stability.hpp"
 #include "server/stop.hpp"
 
@@ -31,10 +32,11 @@ std::optional<WetSurface> wet_surface(const Scene& scene, std::size_t b, const f
   const Body& body = scene.body(static_cast<int>(b));
   if (!protocol::is_ever_free(body)) return std::nullopt;
   const int dimension = static_cast<int>(scene.dimension());
-  return WetSurface(boundary,
-                    {protocol::mass_properties(body, dimension), free_of(body, body.locked(), body.free()),
-                     free_of(body, body.locked_rotation(), body.free_rotation())},
-                    {dimension, scene.spacing(), scene.liquid().density() * scene.liquid().sound_speed()});
+  return WetSurface(
+      boundary,
+      {protocol::mass_properties(body, dimension), free_of(body, body.locked(), body.free()),
+       free_of(body, body.locked_rotation(), body.free_rotation())},
+      {dimension, scene.spacing(), protocol::heaviest_density(scene) * protocol::slowest_sound(scene)});
 }
 
 StabilityWatch::StabilityWatch(const Scene& scene, const CouplingPlan& plan,
