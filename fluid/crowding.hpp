@@ -13,7 +13,7 @@ namespace sluice::fluid {
 // Nothing ties the volumes m/rho to the room that particles take. Where they crowd there is more mass in a
 // room than rho says, which gravity pulls down: README.md, "Crowding". It is measured by
 //   c = m0 / (share of the support that liquid fills),
-// 1 on a lattice, at the surface too (half_space.hpp), and spread by Fick's law: particles drift with
+// about 1 on a lattice, at the surface too (half_space.hpp), and spread by Fick's law: particles drift with
 //   -S h c0 grad c,        grad c_i = sum_k V_k W_ik (g_i + G_i x_ki) (c_k - c_i) over the fluid,
 // velocity and density carried along with their gradients. At the surface they drift along it only, so it
 // does not move. Other than the shifting of shifting.hpp this sees no disorder of the lattice, only what
@@ -24,17 +24,21 @@ class Crowding {
   // `strength` is S; 0 switches it off.
   template <typename Kernel>
   Crowding(double strength, const Model<Dim, Kernel>& model)
-      : strength_(strength), half_space_(model.kernel, model.h, model.spacing) {}
+      : strength_(strength), half_space_(model.kernel, model.h) {}
 
   [[nodiscard]] bool is_used() const { return strength_ > 0.0; }
 
-  // Goes on by dt [s], from the fits at the present positions; moves particles when it is time.
+  // Goes on by dt [s]; whether it is time to spread.
+  bool is_due(double dt) {
+    elapsed_ += dt;
+    return ++steps_ >= kInterval;
+  }
+
+  // Moves particles, from the fits at their present positions; images have the present velocities.
   // for_fluid_near(i, visit) calls visit(k) for the fluid near i, and maybe others beyond the support.
   template <typename Kernel, typename ForFluidNear>
-  void advance(double dt, const Model<Dim, Kernel>& model, const ForFluidNear& for_fluid_near,
-               const Parallel& parallel, Particles<Dim>& fluid) {
-    elapsed_ += dt;
-    if (++steps_ < kInterval) return;
+  void spread(const Model<Dim, Kernel>& model, const ForFluidNear& for_fluid_near, const Parallel& parallel,
+              Particles<Dim>& fluid) {
     measure(model, parallel, fluid);
     const double diffusion = strength_ * model.h * model.eos.sound_speed() * elapsed_;
     drift_.resize(fluid.size());
@@ -48,10 +52,10 @@ class Crowding {
   auto state() { return std::tie(steps_, elapsed_); }
 
  private:
-  // Steps between two drifts, of 0.1 h^2 grad c at S = 0.01 and a Courant number of 0.4. A tank at rest and a
+  // Steps between two drifts, of 0.2 h^2 grad c at S = 0.02 and a Courant number of 0.4. A tank at rest and a
   // drop gave the same with 1, 10 and 30.
   static constexpr int kInterval = 30;
-  // |m1|/(m0 h) from which on a particle is at the surface: 0.3 in the outermost row, 0.02 in the next.
+  // |m1|/(m0 h) from which on a particle is at the surface: 0.24 in the outermost row, 0.02 in the next.
   static constexpr double kSurfaceOffset = 0.1;
   // Thinner liquid is no half space.
   static constexpr double kLeastShare = 0.6;

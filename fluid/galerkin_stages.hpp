@@ -314,14 +314,15 @@ void GalerkinSolver<Dim, Kernel>::find_films() {
 
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::spread_crowds(double dt) {
-  if (!crowding_.is_used()) return;
+  if (!crowding_.is_used() || !crowding_.is_due(dt)) return;
+  search_.halo().refresh_nodes(fluid_);
   const auto for_fluid_near = [this](std::size_t i, const auto& visit) {
     if (by_groups_)
       search_.groups().for_fluid_near_particle(i, visit);
     else
       for (const std::uint32_t k : search_.fluid_near_fluid(i)) visit(k);
   };
-  crowding_.advance(dt, model_, for_fluid_near, parallel_, fluid_);
+  crowding_.spread(model_, for_fluid_near, parallel_, fluid_);
 }
 
 // CF (70) with the divergence at the new positions, and the density diffusion of the last sweep 2. A particle

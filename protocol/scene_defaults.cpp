@@ -141,7 +141,7 @@ void fill_formulation(Formulation& formulation, unsigned dimension, bool shifted
   if (!formulation.has_initial_parameters()) formulation.set_initial_parameters(false);
   if (!formulation.has_tension_control()) formulation.set_tension_control(false);
   if (!formulation.has_shifting()) formulation.set_shifting(shifted ? 6 : 0);
-  if (!formulation.has_spreading()) formulation.set_spreading(spread && has_fit(formulation) ? 0.01 : 0);
+  if (!formulation.has_spreading()) formulation.set_spreading(spread && has_fit(formulation) ? 0.02 : 0);
 }
 
 void fill_output(Output& output, double duration, bool several_liquids) {

@@ -30,8 +30,12 @@ class GuardTest : public ::testing::Test {
 
   Scene scene_ = tank_with("");
   server::Guard guard_{scene_};
-  fluid::Snapshot state_{std::vector<double>(9, 0.5), std::vector<double>(9, 0.0),
-                         std::vector<double>(3, 1000.0), std::vector<double>(3, 0.0), {0, 1, 2}};
+  fluid::Snapshot state_{std::vector<double>(9, 0.5),
+                         std::vector<double>(9, 0.0),
+                         std::vector<double>(3, 1000.0),
+                         std::vector<double>(3, 0.0),
+                         {0, 1, 2},
+                         {}};
 };
 
 TEST_F(GuardTest, LetsACalmStatePass) {
