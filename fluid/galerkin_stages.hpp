@@ -109,7 +109,7 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       period_(setup.period),
       mirror_guard_(setup.mirrors, model_),
       shifting_(setup.formulation.shifting),
-      crowding_(setup.formulation.spreading, model_),
+      crowding_(setup.formulation.spreading, setup.gravity.norm(), model_),
       bodies_(setup.bodies.size()),
       lagged_(stages::make_lagged(setup, model_)),
       wrench_(setup.bodies.size() + 1),

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 
+#include <algorithm>
+
 #include "protocol/field_check.hpp"
 
 namespace sluice::protocol {
@@ -67,6 +69,10 @@ void check_combinations(const Scene& scene, FieldCheck& check) {
         "takes the pressure relative to the particle's own in the gradients of MLS; leave approximation out");
   needs(f.spreading() > 0, is_mls(f) && f.quadrature() != STRESS_POINTS, "spreading",
         "measures crowding with the fit of MLS at particles; leave approximation and quadrature out");
+  const bool weightless =
+      !scene.gravity().empty() &&
+      std::all_of(scene.gravity().begin(), scene.gravity().end(), [](double g) { return g == 0; });
+  needs(f.spreading() > 0, !weightless, "spreading", "acts on crowds that gravity pulls down; leave it out");
   needs(f.internal_force() == SYMMETRIZED, is_mls(f), "internal_force",
         "SYMMETRIZED is built for MLS, to compare with; SPH is symmetrized as it is");
   needs(f.internal_force() == ISOBARIC, f.approximation() == SPH, "internal_force",

@@ -91,6 +91,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"SphTension", 4, "duration: 1 formulation { approximation: SPH tension_control: true }",
               ":4:46: formulation.tension_control: takes the pressure relative to the particle's own in the "
               "gradients of MLS; leave approximation out"},
+        Fault{"WeightlessSpreading", 4, "duration: 1 gravity: [0, 0] formulation { spreading: 0.02 }",
+              ":4:43: formulation.spreading: acts on crowds that gravity pulls down; leave it out"},
         Fault{"SphSymmetrized", 4,
               "duration: 1 formulation { approximation: SPH internal_force: SYMMETRIZED }",
               ":4:46: formulation.internal_force: SYMMETRIZED is built for MLS, to compare with; SPH is "

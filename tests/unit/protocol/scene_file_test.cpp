@@ -96,7 +96,8 @@ TEST(SceneFile, ReportsEverythingAtOnceInReadingOrder) {
   EXPECT_EQ(
       errors_of(text, {"liquid.density=0", "foo=1"}),
       "--set foo=1: foo: the scene has no field \"foo\"; it has name, dimension, spacing, duration, gravity, "
-      "liquid, domain, fluid, body, output, formulation, joint, contact, probe, opening, coupling\n"
+      "liquid, other_liquid, domain, fluid, body, output, formulation, joint, contact, probe, opening, "
+      "coupling\n"
       "--set liquid.density=0: liquid.density: 0 kg/m^3 is not positive; leave it out for water, 1000\n"
       "a.scene:3:1: spacing: -inf is not a finite number\n"
       "a.scene:5:10: visocsity: Liquid has no such field; did you mean viscosity?\n"

@@ -98,14 +98,14 @@ TEST(ThinGate, OfOneSpacingHidesThePressureBehindIt) {
   Spread force;
   double difference = 0;
   while (run.next_output()) {
-    if (run.time() < 0.2) continue;
+    if (run.time() < 0.3) continue;  // the shallow water's rows come to rest against the gate
     force.add(run.wrench(0).force.x());
     difference = std::max(difference, difference_beside(run, 2 * run.scene().spacing()));
   }
   const double expected = hydrostatic_force(kDepth) - hydrostatic_force(kShallow);
   EXPECT_NEAR(force.mean(), expected, 0.02 * expected);
   EXPECT_LT(force.deviation(), 0.01 * expected);
-  EXPECT_LT(difference, 0.03 * kWeight * kDepth);
+  EXPECT_LT(difference, 0.025 * kWeight * kDepth);
   std::printf(
       "two depths: force %.2f %% off, deviation %.2f %%; pressure beside it %.1f %% of the deep water's "
       "off\n",

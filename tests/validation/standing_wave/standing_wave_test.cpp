@@ -5,7 +5,7 @@
 namespace sluice::validation {
 namespace {
 
-// The amplitude lost falls at about first order at these resolutions (measured 46, 36 and 19 % lost).
+// Measured 13, 4.4 and 1.9 % of the amplitude lost.
 TEST(StandingWave, ConvergesToTheory) {
   const Case wave = standing_wave();
   const Outcome coarse = wave.run(8, {}, 1), middle = wave.run(12, {}, 1), fine = wave.run(16, {}, 1);
