@@ -67,7 +67,8 @@ Diagnostics GalerkinSolver<Dim, Kernel>::diagnostics() const {
     d.max_speed = larger(d.max_speed, node.v.norm());
     d.max_compression = larger(d.max_compression, std::abs(node.rho / model_.eos.rest_density() - 1.0));
   }
-  d.elastic += stored_in_guard();
+  d.surface = surface_tension_.energy();
+  d.elastic += stored_in_guard() + d.surface;
   d.boundary_work = boundary_work_ + openings_.work();
   if (openings_.is_used()) d.openings = openings_.passages(fluid_);
   return d;

@@ -19,6 +19,7 @@
 #include "fluid/particles.hpp"
 #include "fluid/shifting.hpp"
 #include "fluid/solver.hpp"
+#include "fluid/surface_tension.hpp"
 
 namespace sluice::fluid {
 
@@ -82,7 +83,8 @@ class GalerkinSolver final : public Solver {
   // All that a step changes but the neighbour search.
   auto state() {
     return std::tie(coefficients_, fluid_, boundary_, surface_, shifting_, crowding_, bodies_, lagged_,
-                    reaction_, wrench_, last_wrench_, history_, interpolated_, boundary_work_, openings_);
+                    reaction_, wrench_, last_wrench_, history_, interpolated_, boundary_work_, openings_,
+                    surface_tension_);
   }
 
   [[nodiscard]] GroupStages<Dim> group_stages() const requires kHasGroups {
@@ -130,6 +132,7 @@ class GalerkinSolver final : public Solver {
   FreeSurface<Dim> surface_;
   Shifting<Dim> shifting_;
   Crowding<Dim> crowding_;
+  SurfaceTension<Dim> surface_tension_;
   std::vector<Kinematics> bodies_;
   std::vector<LaggedAcceleration> lagged_;  // per body
   std::vector<Reaction<Dim>> reaction_;     // on the active boundary particles, by particle
@@ -151,7 +154,8 @@ class GalerkinSolver final : public Solver {
   Checkpoint<std::vector<typename Operator<Dim, Kernel>::Coefficients>, Particles<Dim>,
              BoundaryParticles<Dim>, FreeSurface<Dim>, Shifting<Dim>, Crowding<Dim>, std::vector<Kinematics>,
              std::vector<LaggedAcceleration>, std::vector<Reaction<Dim>>, std::vector<Wrench>,
-             std::vector<Wrench>, History<Dim>, std::vector<Vec<Dim>>, double, Openings<Dim>>
+             std::vector<Wrench>, History<Dim>, std::vector<Vec<Dim>>, double, Openings<Dim>,
+             SurfaceTension<Dim>>
       saved_;
   Checkpoint<NeighborSearch<Dim>> saved_search_;
   std::uint64_t saved_rebuilds_ = 0;

@@ -44,7 +44,7 @@ bool goes_by_groups(const Setup& setup) {
 template <int Dim, typename Kernel>
 SearchPlan search_plan(const Setup& setup) {
   const bool groups = goes_by_groups<Dim, Kernel>(setup);
-  const bool singles = !groups || setup.formulation.shifting > 0.0;
+  const bool singles = !groups || setup.formulation.shifting > 0.0 || setup.liquid.surface_tension > 0.0;
   return {.singles = singles,
           .wall_singles = singles || setup.has_viscous_stress(),
           .groups = groups,
@@ -110,6 +110,7 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       mirror_guard_(setup.mirrors, model_),
       shifting_(setup.formulation.shifting),
       crowding_(setup.formulation.spreading, setup.gravity.norm(), model_),
+      surface_tension_(setup, model_.kernel.support()),
       bodies_(setup.bodies.size()),
       lagged_(stages::make_lagged(setup, model_)),
       wrench_(setup.bodies.size() + 1),
@@ -371,6 +372,7 @@ void GalerkinSolver<Dim, Kernel>::compute_stress() {
       Rule::set_source(quadrature_volume(i), sigma, coefficients_[i], fluid_, i);
   });
   if (fluid_.has_several_liquids() && !fluid_.stress.empty()) compute_own_stress();
+  if (surface_tension_.is_used()) surface_tension_.compute(search_, boundary_, parallel_, fluid_);
   search_.halo().refresh_sources(fluid_);
 }
 
@@ -381,6 +383,7 @@ void GalerkinSolver<Dim, Kernel>::compute_forces() {
     if (by_groups_) group_stages().compute_forces(boundary_, fluid_);
   if (!by_groups_) compute_single_forces();
   mirror_guard_.accelerate(parallel_, fluid_);
+  if (surface_tension_.is_used()) surface_tension_.accelerate(parallel_, fluid_);
 }
 
 template <int Dim, typename Kernel>
@@ -444,7 +447,7 @@ double GalerkinSolver<Dim, Kernel>::largest_step(double max_speed) const {
   }
   const double acoustic = model_.h / (sound_speed + max_speed);
   const double viscous = model_.h * model_.h / (viscosity + 1e-300);
-  return std::min(courant_ * std::min(acoustic, viscous), body_step_);
+  return std::min({courant_ * std::min(acoustic, viscous), body_step_, surface_tension_.largest_step()});
 }
 
 }  // namespace sluice::fluid

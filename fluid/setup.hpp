@@ -10,9 +10,10 @@
 namespace sluice::fluid {
 
 struct Liquid {
-  double density = 1000;   // at zero pressure, rho0 [kg/m^3]
-  double viscosity = 0;    // dynamic, mu [Pa s]; 0: not computed
-  double sound_speed = 0;  // c0 [m/s]
+  double density = 1000;       // at zero pressure, rho0 [kg/m^3]
+  double viscosity = 0;        // dynamic, mu [Pa s]; 0: not computed
+  double sound_speed = 0;      // c0 [m/s]
+  double surface_tension = 0;  // of the free surface, sigma [N/m]; 0: none. For one liquid only
 };
 
 // h/dx at which the square (2D) or cubic (3D) lattice under pressure is stable against displacements of every

@@ -96,6 +96,10 @@ void check(const Setup& setup) {
   require(setup.liquid.sound_speed > 0, "speed of sound [m/s]", setup.liquid.sound_speed,
           "it must be positive");
   require(setup.liquid.viscosity >= 0, "viscosity [Pa s]", setup.liquid.viscosity, "it must not be negative");
+  require(setup.liquid.surface_tension >= 0, "surface tension [N/m]", setup.liquid.surface_tension,
+          "it must not be negative");
+  require(setup.liquid.surface_tension == 0 || setup.liquids.empty(), "surface tension [N/m]",
+          setup.liquid.surface_tension, "it is built for the free surface of one liquid");
   check_liquids(setup);
   const Formulation& f = setup.formulation;
   require(f.smoothing >= 1, "smoothing h/dx", f.smoothing, "at least 1, else neighbours are too few");
@@ -126,6 +130,13 @@ void check(const Setup& setup) {
   require(f.viscous_force == ViscousForce::stress || (wendland && setup.liquid.viscosity > 0),
           "viscosity [Pa s]", setup.liquid.viscosity,
           "the damped viscosity needs some, and the Wendland kernel");
+  require(
+      setup.liquid.surface_tension == 0 ||
+          (mls && f.internal_force == InternalForce::galerkin && f.quadrature == Quadrature::nodal &&
+           f.weights == Weights::kernel_and_volume && f.mass == Mass::physical),
+      "surface tension [N/m]", setup.liquid.surface_tension,
+      "it is built for the Galerkin force of moving least squares with nodal quadrature, volumes as weights "
+      "and physical masses");
   require(f.isobaric_scale > 0, "isobaric_scale", f.isobaric_scale, "it must be positive");
   require(f.moment_floor > 0 && f.moment_floor < 1, "moment_floor", f.moment_floor, "it must be in (0, 1)");
   const std::size_t n = setup.fluid.position.size();

@@ -31,7 +31,8 @@ struct Passage {
 struct Diagnostics {
   double kinetic = 0;    // [J]
   double potential = 0;  // - sum m g.x [J]
-  double elastic = 0;    // work stored in compression [J]
+  double elastic = 0;    // work stored in compression and in the free surface [J]
+  double surface = 0;    // of that in the free surface [J]
   // Done on the fluid by moving boundaries, and brought in less taken out through openings, since the start
   // [J]
   double boundary_work = 0;

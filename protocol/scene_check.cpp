@@ -12,7 +12,7 @@ namespace sluice::protocol {
 namespace {
 
 constexpr std::size_t kLongestSceneName = 200;
-constexpr double kLongestRun = 1e9;   // [s]
+constexpr double kLongestRun = 1e9;  // [s]
 constexpr int kMostRegions = 10'000;
 
 bool printable(const std::string& text) {
@@ -33,6 +33,8 @@ void check_liquid(const Liquid& liquid, FieldCheck& check) {
   if (liquid.has_density())
     check.positive(liquid.density(), "liquid.density", "kg/m^3", "leave it out for water, 1000");
   if (liquid.has_viscosity()) check.not_negative(liquid.viscosity(), "liquid.viscosity", "Pa s");
+  if (liquid.has_surface_tension())
+    check.not_negative(liquid.surface_tension(), "liquid.surface_tension", "N/m");
   if (liquid.has_sound_speed())
     check.positive(liquid.sound_speed(), "liquid.sound_speed", "m/s", "leave it out for ten times max_speed");
   if (liquid.has_max_speed())

@@ -86,6 +86,12 @@ void check_combinations(const Scene& scene, FieldCheck& check) {
         "out");
   needs(f.has_isobaric_scale(), f.internal_force() == ISOBARIC, "isobaric_scale",
         "belongs to internal_force ISOBARIC; set that or leave this out");
+  const bool unweighted = f.weights() == WEIGHTS_UNSPECIFIED || f.weights() == KERNEL_AND_VOLUME;
+  if (scene.liquid().surface_tension() > 0 &&
+      !(is_mls(f) && galerkin && unweighted && f.quadrature() != STRESS_POINTS && f.mass() != LUMPED))
+    check.report("liquid.surface_tension",
+                 "is a stress in the Galerkin force of MLS at particles of their own mass; leave "
+                 "approximation, internal_force, weights, quadrature and mass out");
   needs(f.viscous_force() == DAMPED, scene.liquid().viscosity() > 0, "viscous_force",
         "DAMPED without viscosity does nothing; set liquid.viscosity");
   needs(f.viscous_force() == DAMPED, wendland, "viscous_force",

@@ -67,6 +67,8 @@ void check_others(const Scene& given, FieldCheck& check) {
     if (chosen) check.report(field, reason);
   };
   const Formulation& f = given.formulation();
+  refuse(given.liquid().surface_tension() > 0, "liquid.surface_tension",
+         "is built for the free surface of one liquid; leave it out or remove other_liquid");
   refuse(given.opening_size() > 0, "opening",
          "what comes in and leaves is built for one liquid; remove the openings or other_liquid");
   refuse(f.kernel() != WENDLAND, "formulation.kernel",

@@ -80,7 +80,8 @@ double expected_speed(const Scene& scene) {
   const double g = norm(scene.gravity());
   double speed = g > 0 ? std::sqrt(2 * g * liquid_height(scene, g)) : 0;
   for (const auto& region : scene.fluid()) speed = std::max(speed, norm(region.velocity()));
-  return speed;
+  const Liquid& liquid = scene.liquid();
+  return std::max(speed, std::sqrt(liquid.surface_tension() / (liquid.density() * scene.spacing())));
 }
 
 void fill_liquid(Scene& scene) {
@@ -88,6 +89,7 @@ void fill_liquid(Scene& scene) {
   Liquid& liquid = *scene.mutable_liquid();
   if (!liquid.has_density()) liquid.set_density(1000);
   if (!liquid.has_viscosity()) liquid.set_viscosity(0);
+  if (!liquid.has_surface_tension()) liquid.set_surface_tension(0);
   if (!liquid.has_max_speed()) {
     const double speed = expected_speed(scene);
     liquid.set_max_speed(speed > 0 ? speed : liquid.sound_speed() / kMachInverse);

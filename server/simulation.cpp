@@ -72,7 +72,7 @@ protocol::StepClock make_clock(const Scene& scene, double largest_step) {
 
 void set_liquids(const Scene& scene, fluid::Setup& setup) {
   for (const protocol::LiquidProperties& liquid : protocol::liquids(scene))
-    setup.liquids.push_back({liquid.density, liquid.viscosity, liquid.sound_speed});
+    setup.liquids.push_back({liquid.density, liquid.viscosity, liquid.sound_speed, liquid.surface_tension});
   setup.liquid =
       *std::max_element(setup.liquids.begin(), setup.liquids.end(),
                         [](const fluid::Liquid& a, const fluid::Liquid& b) { return a.density < b.density; });
