@@ -24,6 +24,13 @@ TEST(Liquids, SeveralPass) {
   EXPECT_EQ(errors(std::string(kOil) + kRegion + " output { field: LIQUID }"), "");
 }
 
+TEST(Liquids, SeveralHaveNoSurfaceTension) {
+  const std::string tense = "liquid { max_speed: 3 surface_tension: 0.07 }";
+  EXPECT_EQ(errors_of(with_line(5, tense)), "");
+  EXPECT_THAT(errors_of(with_line(5, tense + kOil + kRegion)),
+              HasSubstr("liquid.surface_tension: is built for the free surface of one liquid; leave it out"));
+}
+
 struct Wrong {
   std::string text, error;
 };

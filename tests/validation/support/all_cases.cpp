@@ -1,3 +1,4 @@
+#include "validation/capillary_drop/capillary_drop.hpp"
 #include "validation/channel_start_up/channel_start_up.hpp"
 #include "validation/dam_break/dam_break.hpp"
 #include "validation/drop_impact/drop_impact.hpp"
@@ -15,12 +16,12 @@
 namespace sluice::validation {
 
 const std::vector<Case>& all_cases() {
-  static const std::vector<Case> cases{hydrostatic_column(),  standing_wave(),       viscous_standing_wave(),
-                                       rotating_patch(),      elliptical_drop(),     taylor_green(),
-                                       poiseuille_start_up(), couette_start_up(),    jet_on_wall(),
-                                       dam_break(),           drop_impact(),         sluice_gate(),
-                                       interfacial_wave_2(),  interfacial_wave_10(), interfacial_wave_1000(),
-                                       lock_exchange(),       two_liquid_dam_break()};
+  static const std::vector<Case> cases{
+      hydrostatic_column(),   standing_wave(),       viscous_standing_wave(), rotating_patch(),
+      elliptical_drop(),      taylor_green(),        poiseuille_start_up(),   couette_start_up(),
+      jet_on_wall(),          dam_break(),           drop_impact(),           sluice_gate(),
+      interfacial_wave_2(),   interfacial_wave_10(), interfacial_wave_1000(), lock_exchange(),
+      two_liquid_dam_break(), still_drop(),          oscillating_drop(),      oscillating_drop_3d()};
   return cases;
 }
 
