@@ -7,11 +7,10 @@ namespace sluice::protocol {
 
 std::vector<LiquidProperties> liquids(const Scene& scene) {
   const Liquid& first = scene.liquid();
-  std::vector<LiquidProperties> all{
-      {first.density(), first.viscosity(), first.sound_speed(), first.surface_tension()}};
+  std::vector<LiquidProperties> all{{first.density(), first.viscosity(), first.sound_speed()}};
   for (const OtherLiquid& other : scene.other_liquid())
     all.push_back({other.density(), other.viscosity(),
-                   first.sound_speed() * std::sqrt(first.density() / other.density()), 0.0});
+                   first.sound_speed() * std::sqrt(first.density() / other.density())});
   return all;
 }
 

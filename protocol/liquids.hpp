@@ -12,10 +12,9 @@ namespace sluice::protocol {
 inline constexpr double kLargestDensityRatio = 1000;
 
 struct LiquidProperties {
-  double density;          // at zero pressure [kg/m^3]
-  double viscosity;        // [Pa s]
-  double sound_speed;      // [m/s]
-  double surface_tension;  // [N/m]
+  double density;      // at zero pressure [kg/m^3]
+  double viscosity;    // [Pa s]
+  double sound_speed;  // [m/s]
 };
 
 // Scene.liquid, then the others, of a scene with its defaults. They are equally stiff: density *

@@ -72,11 +72,12 @@ protocol::StepClock make_clock(const Scene& scene, double largest_step) {
 
 void set_liquids(const Scene& scene, fluid::Setup& setup) {
   for (const protocol::LiquidProperties& liquid : protocol::liquids(scene))
-    setup.liquids.push_back({liquid.density, liquid.viscosity, liquid.sound_speed, liquid.surface_tension});
+    setup.liquids.push_back({liquid.density, liquid.viscosity, liquid.sound_speed});
   setup.liquid =
       *std::max_element(setup.liquids.begin(), setup.liquids.end(),
                         [](const fluid::Liquid& a, const fluid::Liquid& b) { return a.density < b.density; });
   if (setup.liquids.size() == 1) setup.liquids.clear();
+  setup.liquid.surface_tension = scene.liquid().surface_tension();
 }
 
 }  // namespace
