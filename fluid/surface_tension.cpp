@@ -27,7 +27,7 @@ double lattice_volume(double dx) {
 // Measured tension of drops, from pressure and period, over that of the undisturbed lattice: the particles at
 // the surface settle closer to each other (README.md, "Surface tension").
 template <int Dim>
-constexpr double kSettled = Dim == 2 ? 1.42 : 1.42;
+constexpr double kSettled = Dim == 2 ? 1.42 : 1.75;
 
 // The limit of capillary waves, J. Brackbill, D. Kothe, C. Zemach, J. Comput. Phys. 100, 1992, eq. (61), with
 // h for the cell and the factor of J. Morris, Int. J. Numer. Meth. Fluids 33, 2000, eq. (20).

@@ -12,7 +12,7 @@ namespace sluice::validation {
 namespace {
 
 // Of the scenes.
-constexpr double kRadius = 1e-3, kDensity = 1000, kTension = 0.072;  // [m], [kg/m^3], [N/m]
+constexpr double kRadius = 1e-2, kDensity = 1000, kTension = 0.072;  // [m], [kg/m^3], [N/m]
 constexpr double kViscosity = 1e-3;                                  // of the still drop [Pa s]
 constexpr double kSurface = 2 * M_PI * kRadius;                      // of the disc [m]
 

@@ -30,13 +30,13 @@ TEST(CapillaryDrop, RoundsASquareAndKeepsItsMomentum) {
     double most = 0;
     for (std::size_t i = 0; i < s.density.size(); ++i)
       most = std::max(most, std::hypot(s.position[3 * i], s.position[3 * i + 1]));
-    return most / std::sqrt(4e-6 / M_PI);
+    return most / std::sqrt(4e-4 / M_PI);
   };
   SceneRun drop(case_file("capillary_drop/square_drop.scene"));
   const double corner = farthest(drop);
   double momentum = 0;  // over mass and capillary speed
   while (drop.next_step())
-    momentum = std::max(momentum, drop.solver().diagnostics().momentum.norm() / (1000 * 4e-6 * 0.25));
+    momentum = std::max(momentum, drop.solver().diagnostics().momentum.norm() / (1000 * 4e-4 * 0.08));
   EXPECT_GT(corner, 1.15);
   EXPECT_LT(farthest(drop), 1.04);
   EXPECT_LT(momentum, 1e-12);
