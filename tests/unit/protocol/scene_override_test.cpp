@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"body[0].densty=1", "body[0].densty: body[0] has no field \"densty\"; did you mean density?"},
         Bad{"liquid.zzzzzzz=1",
             "liquid.zzzzzzz: liquid has no field \"zzzzzzz\"; it has density, viscosity, sound_speed, "
-            "max_speed"},
+            "max_speed, surface_tension"},
         Bad{"body[7].density=1", "body[7].density: body[7] does not exist; the scene has indices 0 to 1"},
         Bad{"gravity[1]=1", "gravity[1]: gravity[1] does not exist; the scene has none"},
         Bad{"body.density=1", "body.density: body is a list; write body[0] for its first entry"},
