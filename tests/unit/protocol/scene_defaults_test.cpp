@@ -78,6 +78,8 @@ TEST(Defaults, SpeedOfShapesOtherThanBoxes) {
 TEST(Defaults, FasterInitialSpeedCounts) {
   EXPECT_DOUBLE_EQ(filled({"fluid[0].velocity=[3, 4]"}).liquid().max_speed(), 5);
   EXPECT_DOUBLE_EQ(filled({"fluid[0].velocity=[3, 4]", "gravity=[0, 0]"}).liquid().max_speed(), 5);
+  const Liquid tense = filled({"liquid.surface_tension=10", "gravity=[0, 0]", "spacing=0.001"}).liquid();
+  EXPECT_DOUBLE_EQ(tense.max_speed(), std::sqrt(10 / (tense.density() * 0.001)));
 }
 
 TEST(Defaults, SpeedFollowsFromTheSpeedOfSoundWhereNothingElseMoves) {
