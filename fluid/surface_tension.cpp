@@ -29,8 +29,8 @@ double lattice_volume(double dx) {
 template <int Dim>
 constexpr double kSettled = Dim == 2 ? 1.42 : 1.75;
 
-// The limit of capillary waves, J. Brackbill, D. Kothe, C. Zemach, J. Comput. Phys. 100, 1992, eq. (61), with
-// h for the cell and the factor of J. Morris, Int. J. Numer. Meth. Fluids 33, 2000, eq. (20).
+// The limit of capillary waves, J. Brackbill, D. Kothe, C. Zemach, J. Comput. Phys. 100, 1992, with
+// h for the cell and the factor of J. Morris, Int. J. Numer. Meth. Fluids 33, 2000.
 double capillary_step(double rho, double h, double sigma) {
   return 0.25 * std::sqrt(rho * h * h * h / (2.0 * std::numbers::pi * sigma));
 }
