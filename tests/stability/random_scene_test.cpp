@@ -77,8 +77,12 @@ class TrackedParticle : public testing::Test {
     return scene;
   }
   std::uint64_t lost_at(double x, double y) {
-    escapes_.follow(
-        {.position = {x, y, 0}, .velocity = {0, 0, 0}, .density = {1000}, .pressure = {0}, .id = {0}, .liquid = {}});
+    escapes_.follow({.position = {x, y, 0},
+                     .velocity = {0, 0, 0},
+                     .density = {1000},
+                     .pressure = {0},
+                     .id = {0},
+                     .liquid = {}});
     return escapes_.lost();
   }
 
