@@ -29,9 +29,8 @@ Vec<Dim> pair_area(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid,
 // Sweep 2 with several liquids: as ForceSweep, but
 // - between liquids the pressure is biased, and no density diffuses;
 // - the viscous stress of a liquid acts on itself alone, through the fit of its own particles; between
-// liquids the
-//   pairwise viscosity of their laminar ones is the friction. Artificial viscosity there would be friction of
-//   liquids without any: it took a fifth of an interfacial wave's amplitude in two periods.
+//   liquids the pairwise viscosity of their laminar ones is the friction. Artificial viscosity there would be
+//   friction of liquids without any: it took a fifth of an interfacial wave's amplitude in two periods.
 template <int Dim, typename Kernel>
 class LiquidForceSweep {
  public:

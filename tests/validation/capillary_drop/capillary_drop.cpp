@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/support/budget.hpp"
 #include "validation/support/files.hpp"
 #include "validation/support/oscillation.hpp"
 #include "validation/support/scene_run.hpp"
@@ -21,26 +22,6 @@ SceneRun make_run(const char* scene, int resolution, const std::vector<std::stri
                   with_spacing(kRadius / resolution, overrides), threads);
 }
 
-double energy(const SceneRun& run) {
-  const fluid::Diagnostics d = run.solver().diagnostics();
-  return d.kinetic + d.elastic;  // the surface's is part of it
-}
-
-// The largest energy over the lowest before it [J].
-class Rise {
- public:
-  explicit Rise(const SceneRun& run) : lowest_(energy(run)) {}
-  void look(const SceneRun& run) {
-    const double now = energy(run);
-    lowest_ = std::min(lowest_, now);
-    most_ = std::max(most_, now - lowest_);
-  }
-  [[nodiscard]] double most() const { return most_; }
-
- private:
-  double lowest_, most_ = 0;
-};
-
 // Mean pressure within half the radius [Pa].
 double inner_pressure(const SceneRun& run) {
   const fluid::Snapshot s = run.solver().snapshot();
@@ -57,7 +38,7 @@ double inner_pressure(const SceneRun& run) {
 // The figures are of the second half of the run.
 Outcome run_still(int resolution, const std::vector<std::string>& overrides, int threads) {
   SceneRun run = make_run("still_drop.scene", resolution, overrides, threads);
-  Rise rise(run);
+  EnergyRise rise(run);
   double pressure = 0, kinetic = 0;
   int outputs = 0;
   while (run.next_output()) {
@@ -98,8 +79,8 @@ Outcome run_oscillation(const char* scene, double squared, int resolution,
                         const std::vector<std::string>& overrides, int threads) {
   SceneRun run = make_run(scene, resolution, overrides, threads);
   const double omega = std::sqrt(squared * kTension / (kDensity * std::pow(kRadius, 3)));
-  const double start = stretch(run), before = energy(run);
-  Rise rise(run);
+  const double start = stretch(run);
+  EnergyRise rise(run);
   Curve curve{{0.0}, {1.0}};
   while (run.next_output()) {
     rise.look(run);
@@ -111,7 +92,7 @@ Outcome run_oscillation(const char* scene, double squared, int resolution,
   const double left = std::exp(-found.decay * 2 * M_PI / omega);
   return run.outcome({{"period", "% from Rayleigh", 100 * error, 5},
                       {"amplitude left after a period", "%", 100 * left},
-                      {"energy rises by", "% of that at the start", 100 * rise.most() / before}},
+                      {"energy rises by", "% of that at the start", 100 * rise.most() / rise.start()}},
                      error);
 }
 

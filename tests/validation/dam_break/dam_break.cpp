@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "validation/support/budget.hpp"
 #include "validation/support/files.hpp"
 #include "validation/support/front.hpp"
 #include "validation/support/scene_run.hpp"
@@ -23,23 +24,6 @@ double front(const SceneRun& run) {
   std::vector<double> x;
   for (std::size_t i = 0; i < s.density.size(); ++i) x.push_back(s.position[3 * i]);
   return front_of(std::move(x), run.scene().spacing());
-}
-
-// Particles further than half a spacing behind a closed wall.
-int lost(const SceneRun& run) {
-  const fluid::Snapshot s = run.solver().snapshot();
-  const double slack = 0.5 * run.scene().spacing(), right = run.scene().domain().max(0);
-  int count = 0;
-  for (std::size_t i = 0; i < s.density.size(); ++i) {
-    const double x = s.position[3 * i], y = s.position[3 * i + 1];
-    count += !(x > -slack && x < right + slack && y > -slack);
-  }
-  return count;
-}
-
-double energy(const SceneRun& run) {
-  const fluid::Diagnostics d = run.solver().diagnostics();
-  return d.kinetic + d.potential + d.elastic;
 }
 
 struct Scatter {
@@ -91,18 +75,15 @@ FrontError compare_with_experiments(const Curve& computed) {
 DamBreakRun run_dam_break(int resolution, const std::vector<std::string>& overrides, int threads) {
   SceneRun run(shipped_scene("dam_break"), with_spacing(kWidth / resolution, overrides), threads);
   const double to_T = std::sqrt(2 * kG / kWidth);
-  const double start = energy(run);
-  double lowest = start, largest_rise = 0;
+  EnergyRise rise(run);
   int most_lost = 0;
   Curve fronts{{0.0}, {1.0}}, energies{{0.0}, {1.0}};
   while (run.next_step()) {
-    const double now = energy(run);
-    largest_rise = std::max(largest_rise, now - lowest);
-    lowest = std::min(lowest, now);
+    rise.look(run);
     if (!run.is_output()) continue;
-    most_lost = std::max(most_lost, lost(run));
+    most_lost = std::max(most_lost, lost_below_or_beside(run));
     energies.x.push_back(run.time() * to_T);
-    energies.y.push_back(now / start);
+    energies.y.push_back(energy(run) / rise.start());
     if (fronts.y.back() > kNearWall) continue;
     fronts.x.push_back(run.time() * to_T);
     fronts.y.push_back(front(run) / kWidth);
@@ -110,7 +91,7 @@ DamBreakRun run_dam_break(int resolution, const std::vector<std::string>& overri
   const FrontError error = compare_with_experiments(fronts);
   return {run.outcome({{"front ahead of the experiments", "% at most, T > 1", 100 * error.ahead, 0},
                        {"front behind the experiments", "% at most, T > 1", 100 * error.behind, 0},
-                       {"energy", "% risen at most", 100 * largest_rise / start, 0.01},
+                       {"energy", "% risen at most", 100 * rise.most() / rise.start(), 0.01},
                        {"particles lost", "", static_cast<double>(most_lost), 0}},
                       error.rms),
           fronts, energies};

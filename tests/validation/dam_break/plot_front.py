@@ -15,12 +15,16 @@ EXPERIMENTS = {
 }
 
 
-def main(result, picture):
+def draw_experiments(axes, **style):
     folder = pathlib.Path(__file__).parent
-    figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
     for marker, (name, label) in zip("os^", EXPERIMENTS.items()):
         T, Z = np.loadtxt(folder / f"{name}.csv", delimiter=",", comments="#", usecols=(0, 1)).T
-        axes.plot(T, Z, marker, label=label)
+        axes.plot(T, Z, marker, label=label, **style)
+
+
+def main(result, picture):
+    figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
+    draw_experiments(axes)
     T, Z = np.loadtxt(result, delimiter=",", comments="#", usecols=(0, 1)).T
     axes.plot(T, Z, "k-", label="sluice, a/dx = 40")
     axes.set(xlabel=r"$t\,\sqrt{2g/a}$", ylabel=r"$x_\mathrm{front}/a$", xlim=(0, 4.5), ylim=(1, 5.6),

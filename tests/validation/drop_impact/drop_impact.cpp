@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "validation/support/budget.hpp"
 #include "validation/support/files.hpp"
 #include "validation/support/scene_run.hpp"
 
@@ -29,11 +30,6 @@ double asymmetry(const SceneRun& run) {
   return difference / drop;
 }
 
-double energy(const SceneRun& run) {
-  const fluid::Diagnostics d = run.solver().diagnostics();
-  return d.kinetic + d.potential + d.elastic;
-}
-
 // Volume of all particles over that at the start, less one.
 double volume_change(const SceneRun& run, const std::vector<double>& density_at_start) {
   const fluid::Snapshot s = run.solver().snapshot();
@@ -49,19 +45,17 @@ Outcome run(int resolution, const std::vector<std::string>& overrides, int threa
   SceneRun run(case_file("drop_impact/drop_impact.scene"), with_spacing(kDiameter / resolution, overrides),
                threads);
   const std::vector<double> density = run.solver().snapshot().density;
-  const double start = energy(run);
-  double lowest = start, rise = 0, largest_asymmetry = 0, largest_change = 0;
+  EnergyRise rise(run);
+  double largest_asymmetry = 0, largest_change = 0;
   while (run.next_step()) {
-    const double now = energy(run);
-    rise = std::max(rise, now - lowest);
-    lowest = std::min(lowest, now);
+    rise.look(run);
     if (!run.is_output()) continue;
     largest_asymmetry = std::max(largest_asymmetry, asymmetry(run));
     largest_change = std::max(largest_change, std::abs(volume_change(run, density)));
   }
   return run.outcome({{"asymmetry", "% of the drop's mass, at most", 100 * largest_asymmetry},
                       {"volume", "% changed at most", 100 * largest_change},
-                      {"energy", "% risen at most", 100 * rise / start}},
+                      {"energy", "% risen at most", 100 * rise.most() / rise.start()}},
                      largest_asymmetry);
 }
 

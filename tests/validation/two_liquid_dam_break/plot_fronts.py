@@ -9,15 +9,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "dam_break"))
-from plot_front import EXPERIMENTS  # noqa: E402
+from plot_front import draw_experiments  # noqa: E402
 
 
 def main(result, picture):
-    folder = pathlib.Path(__file__).parent.parent / "dam_break"
     figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
-    for marker, (name, label) in zip("os^", EXPERIMENTS.items()):
-        T, Z = np.loadtxt(folder / f"{name}.csv", delimiter=",", comments="#", usecols=(0, 1)).T
-        axes.plot(T, Z, marker, markerfacecolor="none", label=label)
+    draw_experiments(axes, markerfacecolor="none")
     T, light, heavy = np.loadtxt(result, delimiter=",", comments="#").T
     axes.plot(T, light, "-", color="tab:orange", label="light liquid")
     axes.plot(T, heavy, "--", color="tab:blue", label="heavy liquid")

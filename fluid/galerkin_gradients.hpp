@@ -1,0 +1,84 @@
+#pragma once
+
+// Sweep 1 of GalerkinSolver, and the density that follows from it.
+
+#include "fluid/galerkin_liquids.hpp"
+#include "fluid/galerkin_solver.hpp"
+#include "fluid/gradient_sweep.hpp"
+#include "fluid/no_slip.hpp"
+#include "fluid/operator_sweep.hpp"
+#include "fluid/stress.hpp"
+#include "fluid/wedged.hpp"
+
+namespace sluice::fluid {
+
+// Sweep 1.
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::compute_gradients() {
+  if constexpr (kHasGroups)
+    if (by_groups_) group_stages().compute_gradients(boundary_, fluid_);
+  if (!by_groups_) compute_single_gradients();
+  if (fluid_.has_several_liquids()) separate_liquids();
+  // Corrected SPH threw a single particle of a splash out by it.
+  if (Operator<Dim, Kernel>::kIsDefault && !bodies_.empty()) find_films();
+  if (!boundary_.sticks()) return;
+  parallel_.for_each(fluid_.size(), [&](std::size_t i) {
+    fluid_.source[i].strain +=
+        sticking_strain<Dim>(model_, fluid_, i, search_.boundary_near_fluid(i), boundary_);
+  });
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::compute_single_gradients() {
+  if constexpr (!Operator<Dim, Kernel>::kIsDefault) coefficients_.resize(fluid_.size());
+  parallel_.for_each(fluid_.size(), [&](std::size_t i) {
+    FirstSweep<Dim, Kernel> sweep(model_, fluid_.node[i]);
+    sweep.gather(search_.fluid_near_fluid(i), fluid_.node);
+    sweep.gather(search_.boundary_near_fluid(i), boundary_.node());
+    const auto gradients = sweep.finish();
+    if constexpr (!Operator<Dim, Kernel>::kIsDefault) coefficients_[i] = gradients.coefficients;
+    fluid_.fit[i] = gradients.fit;
+    fluid_.source[i].grad_rho = gradients.grad_rho;
+    fluid_.divergence[i] = gradients.L.trace();
+    fluid_.source[i].strain = strain_rate<Dim>(gradients.L);
+    if (shifting_.is_used()) fluid_.L[i] = gradients.L;
+  });
+}
+
+// Fluid that is caught between two surfaces, or was pressed through one, counts as spray and carries no
+// pressure at all (wedged.hpp): it would be that of one particle between stiff walls, whose forces do not
+// match the work done on it. With it, heavy bodies that come down on a floor bring several times their energy
+// in.
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::find_films() {
+  parallel_.for_each(fluid_.size(), [&](std::size_t i) {
+    thread_local std::vector<std::uint32_t> buffer;
+    const auto near =
+        by_groups_ ? search_.groups().boundary_near_particle(i, buffer) : search_.boundary_near_fluid(i);
+    const Vec<Dim>& x = fluid_.node[i].x;
+    if (near.empty() || !(is_wedged<Dim>(model_, x, near, boundary_, mirror_guard_.planes()) ||
+                          is_inside_boundary<Dim>(x, near, boundary_)))
+      return;
+    fluid_.fit[i].floored = true;
+    fluid_.node[i].rho = model_.eos.rest_density();
+    fluid_.divergence[i] = fluid_.density_rate[i] = 0.0;
+  });
+}
+
+// CF (70) with the divergence at the new positions, and the density diffusion of the last sweep 2. A particle
+// with too few neighbours for a fit is spray: it carries no tension, and its pressure falls to the ambient
+// one in the time that sound takes across it, since its own divergence hardly feels it. Nor is there tension
+// between a particle and a mirror (mirror_guard.hpp).
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::advance_density(double dt) {
+  const double rho0 = model_.eos.rest_density();
+  const double acoustic_time = model_.h / model_.eos.sound_speed();
+  parallel_.for_each(fluid_.size(), [&](std::size_t i) {
+    double& rho = fluid_.node[i].rho;
+    rho += dt * (fluid_.density_rate[i] - rho * fluid_.divergence[i]);
+    if (rho < rho0 && mirror_guard_.is_film(fluid_.node[i].x)) rho = rho0;
+    if (fluid_.fit[i].floored) rho = rho0 + std::max(0.0, rho - rho0) / (1.0 + dt / acoustic_time);
+  });
+}
+
+}  // namespace sluice::fluid
