@@ -32,51 +32,74 @@ struct ForceSums {
   }
 };
 
+// Where a neighbour stands, found one neighbour ahead: all else of a pair waits for the root and the
+// division.
+template <int Dim>
+struct Ahead {
+  Vecs<Dim> x_ik;
+  V d, per_r2;  // from the edge of the support; 1/r^2
+};
+
 template <int Dim, bool kMasked>
 HWY_INLINE void gather_fluid(const LaneModel<Dim>& model, const NodeLanes<Dim>& group,
-                             const ForceLanes<Dim>& lanes, std::size_t turn, const NearGroup& near,
+                             const ForceLanes<Dim>& lanes, std::size_t turn,
+                             std::span<const std::uint32_t> near, const std::uint8_t* mask,
                              const Node<Dim>* node, const Source<Dim>* source, ForceSums<Dim>& sums) {
   const Wendland kernel(model.kernel);
   const Vecs<Dim> x = load(group.x, turn), v = load(group.v, turn), grad_rho = load(lanes.grad_rho, turn);
   const Vecs<Dim*(Dim + 1) / 2> strain = load(lanes.strain, turn);
-  const V rho = load(group.rho, turn), tiny_r2 = set(model.tiny_r2), half = set(0.5);
+  const V rho = load(group.rho, turn), tiny_r2 = set(model.tiny_r2);
   ForceSums<Dim> s = sums;
-  for (std::size_t n = 0; n < near.index.size(); ++n) {
-    const Node<Dim>& k = node[near.index[n]];
-    const Source<Dim>& from = source[near.index[n]];
-    Vecs<Dim> x_ik;
+  if (near.empty()) return;
+  const auto look = [&](std::size_t n) HWY_ATTR {
+    const Node<Dim>& k = node[near[n]];
+    Ahead<Dim> ahead;
     SLUICE_UNROLL
-    for (int a = 0; a < Dim; ++a) x_ik[a] = x[a] - set(k.x[a]);
-    const V r2 = dot(x_ik, x_ik);
+    for (int a = 0; a < Dim; ++a) ahead.x_ik[a] = x[a] - set(k.x[a]);
+    const V r2 = dot(ahead.x_ik, ahead.x_ik);
+    ahead.d = kernel.from_edge(r2);
+    ahead.per_r2 = set(1.0) / (r2 + tiny_r2);
+    return ahead;
+  };
+  Ahead<Dim> next = look(0);
+  for (std::size_t n = 0; n < near.size(); ++n) {
+    const Node<Dim>& k = node[near[n]];
+    const Source<Dim>& from = source[near[n]];
+    const Vecs<Dim> x_ik = next.x_ik;
+    const V per_r2 = next.per_r2;
     V W, F;
-    kernel.value_and_slope(r2, W, F);
+    kernel.value_and_slope_at(next.d, W, F);
+    next = look(n + 1 < near.size() ? n + 1 : n);
     if constexpr (kMasked) {
-      const M on = lanes_of(near.lanes, n, turn);
+      const M on = lanes_of(mask, n, turn);
       W = hn::IfThenElseZero(on, W);
       F = hn::IfThenElseZero(on, F);
     }
-    Vecs<Dim> flux, strained = zeros<Dim>();
+    // Twice the differences of velocity and density that the gradients leave unexplained.
+    const V rho_ki = set(k.rho) - rho;
+    Vecs<Dim> flux, v_left;
+    V rho_left = rho_ki + rho_ki;
     SLUICE_UNROLL
-    for (int a = 0; a < Dim; ++a) flux[a] = set(from.s[a]);
+    for (int a = 0; a < Dim; ++a) {
+      flux[a] = set(from.s[a]);
+      const V v_ik = v[a] - set(k.v[a]);
+      v_left[a] = v_ik + v_ik;
+      rho_left = hn::MulAdd(grad_rho[a] + set(from.grad_rho[a]), x_ik[a], rho_left);
+    }
     SLUICE_UNROLL
     for (int ab = 0; ab < Dim * Dim; ++ab) {
       const int a = ab / Dim, b = ab % Dim;
       flux[a] = hn::MulAdd(set(from.S(a, b)), x_ik[b], flux[a]);
-      strained[a] = hn::MulAdd(strain[sym<Dim>(a, b)] + set(from.strain(a, b)), x_ik[b], strained[a]);
+      v_left[a] = hn::NegMulAdd(strain[sym<Dim>(a, b)] + set(from.strain(a, b)), x_ik[b], v_left[a]);
     }
-    V approach = hn::Zero(D()), explained = hn::Zero(D()), slope = hn::Zero(D());
+    const V VF = set(k.volume) * F;
+    const V viscous = VF * dot(v_left, x_ik) * per_r2;
     SLUICE_UNROLL
     for (int a = 0; a < Dim; ++a) {
       s.internal[a] = hn::MulAdd(W, flux[a], s.internal[a]);
-      approach = hn::MulAdd(v[a] - set(k.v[a]), x_ik[a], approach);
-      explained = hn::MulAdd(strained[a], x_ik[a], explained);
-      slope = hn::MulAdd(grad_rho[a] + set(from.grad_rho[a]), x_ik[a], slope);
+      s.viscous[a] = hn::NegMulAdd(viscous, x_ik[a], s.viscous[a]);
     }
-    const V VF = set(k.volume) * F;
-    const V viscous = VF * hn::NegMulAdd(half, explained, approach) / (r2 + tiny_r2);
-    SLUICE_UNROLL
-    for (int a = 0; a < Dim; ++a) s.viscous[a] = hn::NegMulAdd(viscous, x_ik[a], s.viscous[a]);
-    s.diffusion = hn::MulAdd(VF, hn::MulAdd(half, slope, set(k.rho) - rho), s.diffusion);
+    s.diffusion = hn::MulAdd(VF, rho_left, s.diffusion);
   }
   sums = s;
 }
@@ -111,7 +134,7 @@ HWY_INLINE void gather_boundary(const LaneModel<Dim>& model, const NodeLanes<Dim
 
 template <int Dim>
 HWY_INLINE void forces(const LaneModel<Dim>& model, const NodeLanes<Dim>& group, const NearGroup& fluid,
-                       const Particles<Dim>& particles, const NearGroup& boundary,
+                       const CloseGroup& close, const Particles<Dim>& particles, const NearGroup& boundary,
                        const BoundaryParticles<Dim>& walls, ForceLanes<Dim>& lanes) {
   const Node<Dim>* node = particles.node.data();
   const Source<Dim>* source = particles.source.data();
@@ -119,12 +142,14 @@ HWY_INLINE void forces(const LaneModel<Dim>& model, const NodeLanes<Dim>& group,
     ForceSums<Dim> sums;
     sums.clear();
     if (fluid.lanes == nullptr)
-      gather_fluid<Dim, false>(model, group, lanes, turn, fluid, node, source, sums);
+      gather_fluid<Dim, false>(model, group, lanes, turn, close.of(turn / kLanes), nullptr, node, source,
+                               sums);
     else
-      gather_fluid<Dim, true>(model, group, lanes, turn, fluid, node, source, sums);
+      gather_fluid<Dim, true>(model, group, lanes, turn, fluid.index, fluid.lanes, node, source, sums);
     gather_boundary<Dim>(model, group, turn, boundary, walls, sums);
-    const V volume = load(group.volume, turn), W0 = set(model.kernel.at_zero());
-    const V alpha = set(model.artificial_viscosity * model.kernel.slope());
+    const V volume = load(group.volume, turn), W0 = set(Wendland::value_factor(model.kernel));
+    const double slope = Wendland::slope_factor(model.kernel);
+    const V alpha = set(0.5 * model.artificial_viscosity * slope);
     Vecs<Dim> force;
     SLUICE_UNROLL
     for (int a = 0; a < Dim; ++a) {
@@ -132,7 +157,7 @@ HWY_INLINE void forces(const LaneModel<Dim>& model, const NodeLanes<Dim>& group,
       force[a] = hn::MulAdd(volume, hn::MulAdd(W0, stress, alpha * sums.viscous[a]), sums.guard[a]);
     }
     store(force, lanes.force, turn);
-    store(set(model.density_diffusion * model.kernel.slope()) * sums.diffusion, lanes.density_rate, turn);
+    store(set(0.5 * model.density_diffusion * slope) * sums.diffusion, lanes.density_rate, turn);
   }
 }
 
@@ -170,7 +195,7 @@ HWY_INLINE void reactions(const LaneModel<Dim>& model, const NodeLanes<Dim>& gro
       }
       add_guard<Dim>(model, on, r2, x_wi, guard);
     }
-    const V W0 = set(model.kernel.at_zero()), G = set(model.boundary_G);
+    const V W0 = set(Wendland::value_factor(model.kernel)), G = set(model.boundary_G);
     Vecs<Dim> force;
     SLUICE_UNROLL
     for (int a = 0; a < Dim; ++a)
@@ -180,14 +205,14 @@ HWY_INLINE void reactions(const LaneModel<Dim>& model, const NodeLanes<Dim>& gro
 }
 
 void forces_2d(const LaneModel<2>& model, const NodeLanes<2>& group, const NearGroup& fluid,
-               const Particles<2>& particles, const NearGroup& boundary, const BoundaryParticles<2>& walls,
-               ForceLanes<2>& lanes) {
-  forces<2>(model, group, fluid, particles, boundary, walls, lanes);
+               const CloseGroup& close, const Particles<2>& particles, const NearGroup& boundary,
+               const BoundaryParticles<2>& walls, ForceLanes<2>& lanes) {
+  forces<2>(model, group, fluid, close, particles, boundary, walls, lanes);
 }
 void forces_3d(const LaneModel<3>& model, const NodeLanes<3>& group, const NearGroup& fluid,
-               const Particles<3>& particles, const NearGroup& boundary, const BoundaryParticles<3>& walls,
-               ForceLanes<3>& lanes) {
-  forces<3>(model, group, fluid, particles, boundary, walls, lanes);
+               const CloseGroup& close, const Particles<3>& particles, const NearGroup& boundary,
+               const BoundaryParticles<3>& walls, ForceLanes<3>& lanes) {
+  forces<3>(model, group, fluid, close, particles, boundary, walls, lanes);
 }
 void reactions_2d(const LaneModel<2>& model, const NodeLanes<2>& group, const NearGroup& fluid,
                   const Particles<2>& particles, ReactionLanes<2>& lanes) {
@@ -211,15 +236,15 @@ HWY_EXPORT(reactions_3d);
 
 template <>
 void gather_forces(const LaneModel<2>& model, const NodeLanes<2>& group, const NearGroup& fluid,
-                   const Particles<2>& particles, const NearGroup& boundary,
+                   const CloseGroup& close, const Particles<2>& particles, const NearGroup& boundary,
                    const BoundaryParticles<2>& walls, ForceLanes<2>& lanes) {
-  HWY_DYNAMIC_DISPATCH(forces_2d)(model, group, fluid, particles, boundary, walls, lanes);
+  HWY_DYNAMIC_DISPATCH(forces_2d)(model, group, fluid, close, particles, boundary, walls, lanes);
 }
 template <>
 void gather_forces(const LaneModel<3>& model, const NodeLanes<3>& group, const NearGroup& fluid,
-                   const Particles<3>& particles, const NearGroup& boundary,
+                   const CloseGroup& close, const Particles<3>& particles, const NearGroup& boundary,
                    const BoundaryParticles<3>& walls, ForceLanes<3>& lanes) {
-  HWY_DYNAMIC_DISPATCH(forces_3d)(model, group, fluid, particles, boundary, walls, lanes);
+  HWY_DYNAMIC_DISPATCH(forces_3d)(model, group, fluid, close, particles, boundary, walls, lanes);
 }
 template <>
 void gather_reaction(const LaneModel<2>& model, const NodeLanes<2>& group, const NearGroup& fluid,

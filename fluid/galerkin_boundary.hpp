@@ -24,6 +24,7 @@ void GalerkinSolver<Dim, Kernel>::for_active_boundary(const Visit& visit) const 
 
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::mirror_velocities() {
+  const Stopwatch watch(times_.boundary);
   if constexpr (kHasGroups)
     if (by_groups_) return group_stages().mirror_velocities(fluid_, boundary_);
   const auto& active = search_.active_boundary();
@@ -34,6 +35,7 @@ void GalerkinSolver<Dim, Kernel>::mirror_velocities() {
 
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::extrapolate_to_boundary() {
+  const Stopwatch watch(times_.boundary);
   if constexpr (kHasGroups)
     if (by_groups_ && boundary_.stress.empty()) return group_stages().extrapolate(fluid_, boundary_);
   const auto& active = search_.active_boundary();
@@ -74,6 +76,7 @@ std::vector<std::uint32_t> GalerkinSolver<Dim, Kernel>::measured_groups() const 
 
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::collect_wrenches() {
+  const Stopwatch watch(times_.reactions);
   wrench_.assign(wrench_.size(), Wrench{});
   if (bodies_.empty() && !measure_wall_force_) return;
   compute_reactions();

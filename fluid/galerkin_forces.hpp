@@ -68,6 +68,7 @@ void GalerkinSolver<Dim, Kernel>::compute_stress() {
 // Sweep 2.
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::compute_forces() {
+  const Stopwatch watch(times_.forces);
   if constexpr (kHasGroups)
     if (by_groups_) group_stages().compute_forces(boundary_, fluid_);
   if (!by_groups_) compute_single_forces();

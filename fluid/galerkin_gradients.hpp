@@ -15,6 +15,7 @@ namespace sluice::fluid {
 // Sweep 1.
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::compute_gradients() {
+  const Stopwatch watch(times_.gradients);
   if constexpr (kHasGroups)
     if (by_groups_) group_stages().compute_gradients(boundary_, fluid_);
   if (!by_groups_) compute_single_gradients();

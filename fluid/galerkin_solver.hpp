@@ -19,6 +19,7 @@
 #include "fluid/particles.hpp"
 #include "fluid/shifting.hpp"
 #include "fluid/solver.hpp"
+#include "fluid/stopwatch.hpp"
 #include "fluid/surface_tension.hpp"
 
 namespace sluice::fluid {
@@ -47,6 +48,7 @@ class GalerkinSolver final : public Solver {
   [[nodiscard]] double largest_step(double max_speed) const override;
   [[nodiscard]] Snapshot snapshot() const override;
   [[nodiscard]] Diagnostics diagnostics() const override;
+  [[nodiscard]] StageTimes stage_times() const override { return times_; }
 
  private:
   // The integrators; all but the first in integrators.hpp.
@@ -87,8 +89,8 @@ class GalerkinSolver final : public Solver {
                     surface_tension_);
   }
 
-  [[nodiscard]] GroupStages<Dim> group_stages() const requires kHasGroups {
-    return {model_, search_.groups(), parallel_};
+  [[nodiscard]] GroupStages<Dim> group_stages() requires kHasGroups {
+    return {model_, search_.groups(), parallel_, close_};
   }
   void compute_single_gradients();
   void compute_single_forces();
@@ -128,6 +130,7 @@ class GalerkinSolver final : public Solver {
   Openings<Dim> openings_;
   bool by_groups_;
   Period period_;
+  CloseList close_;
   MirrorGuard<Dim> mirror_guard_;
   FreeSurface<Dim> surface_;
   Shifting<Dim> shifting_;
@@ -150,6 +153,7 @@ class GalerkinSolver final : public Solver {
   double courant_;
   double body_step_;  // [s]
   double boundary_work_ = 0;
+  StageTimes times_;
 
   Checkpoint<std::vector<typename Operator<Dim, Kernel>::Coefficients>, Particles<Dim>,
              BoundaryParticles<Dim>, FreeSurface<Dim>, Shifting<Dim>, Crowding<Dim>, std::vector<Kinematics>,

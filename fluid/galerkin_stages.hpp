@@ -41,6 +41,7 @@ void GalerkinSolver<Dim, Kernel>::start(std::span<const Kinematics> bodies) {
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::step(double dt, std::span<const Kinematics> bodies) {
   assert(dt > 0.0);
+  const Stopwatch watch(times_.steps);
   last_wrench_ = wrench_;
   spread_crowds(dt);
   switch (integrator_) {
@@ -93,6 +94,7 @@ void GalerkinSolver<Dim, Kernel>::place(double dt, std::span<const Kinematics> b
 
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::find_neighbors() {
+  const Stopwatch watch(times_.search);
   if (!search_.is_stale(fluid_, boundary_, parallel_)) return;
   openings_.exchange(fluid_);
   search_.rebuild(fluid_, boundary_, parallel_);

@@ -26,18 +26,41 @@ struct GradientSums {
   }
 };
 
-template <int Dim, bool kMasked>
-HWY_INLINE void gather(const Wendland& kernel, const NodeLanes<Dim>& group, std::size_t turn,
-                       const NearNodes<Dim>& near, GradientSums<Dim>& sums) {
+// Where a neighbour stands, found one neighbour ahead: all else of a pair waits for the root.
+template <int Dim>
+struct Ahead {
+  Vecs<Dim> x_ji;
+  V d;  // from the edge of the support
+};
+
+// Writes what is close to `close` with kClose, and returns where that ends.
+template <int Dim, bool kMasked, bool kClose>
+HWY_INLINE std::uint32_t* gather(const Wendland& kernel, const NodeLanes<Dim>& group, std::size_t turn,
+                                 const NearNodes<Dim>& near, std::uint32_t* close, GradientSums<Dim>& sums) {
   const Vecs<Dim> x = load(group.x, turn), v = load(group.v, turn);
   const V rho = load(group.rho, turn);
   GradientSums<Dim> s = sums;
-  for (std::size_t k = 0; k < near.near.index.size(); ++k) {
+  const std::size_t count = near.near.index.size();
+  if (count == 0) return close;
+  const auto look = [&](std::size_t k) HWY_ATTR {
     const Node<Dim>& j = near.node[near.near.index[k]];
-    Vecs<Dim> x_ji;
+    Ahead<Dim> ahead;
     SLUICE_UNROLL
-    for (int a = 0; a < Dim; ++a) x_ji[a] = set(j.x[a]) - x[a];
-    V VW = set(j.volume) * kernel.value(dot(x_ji, x_ji));
+    for (int a = 0; a < Dim; ++a) ahead.x_ji[a] = set(j.x[a]) - x[a];
+    ahead.d = kernel.from_edge(dot(ahead.x_ji, ahead.x_ji));
+    return ahead;
+  };
+  Ahead<Dim> next = look(0);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Node<Dim>& j = near.node[near.near.index[k]];
+    const Vecs<Dim> x_ji = next.x_ji;
+    const V d = next.d;
+    next = look(k + 1 < count ? k + 1 : k);
+    if constexpr (kClose) {
+      if (hn::AllFalse(D(), hn::Gt(d, hn::Zero(D())))) continue;
+      *close++ = near.near.index[k];
+    }
+    V VW = set(j.volume) * kernel.value_at(d);
     if constexpr (kMasked) VW = hn::IfThenElseZero(lanes_of(near.near.lanes, k, turn), VW);
     s.m0 = s.m0 + VW;
     const V rho_ji = set(j.rho) - rho;
@@ -59,15 +82,16 @@ HWY_INLINE void gather(const Wendland& kernel, const NodeLanes<Dim>& group, std:
     }
   }
   sums = s;
+  return close;
 }
 
 template <int Dim>
 HWY_INLINE void gather(const Wendland& kernel, const NodeLanes<Dim>& group, std::size_t turn,
                        const NearNodes<Dim>& near, GradientSums<Dim>& sums) {
   if (near.near.lanes == nullptr)
-    gather<Dim, false>(kernel, group, turn, near, sums);
+    gather<Dim, false, false>(kernel, group, turn, near, nullptr, sums);
   else
-    gather<Dim, true>(kernel, group, turn, near, sums);
+    gather<Dim, true, false>(kernel, group, turn, near, nullptr, sums);
 }
 
 // By the kernel's constant, which the sums still lack.
@@ -169,30 +193,48 @@ HWY_INLINE void finish(const GradientSums<Dim>& s, double moment_floor, std::siz
   }
   store(grad_rho, out.grad_rho, turn);
   store(L, out.L, turn);
+  Vecs<Dim*(Dim + 1) / 2> strain;
+  V divergence = L[0];
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a) {
+    if (a > 0) divergence = divergence + L[a * Dim + a];
+    strain[sym<Dim>(a, a)] = L[a * Dim + a];
+    for (int b = a + 1; b < Dim; ++b) strain[sym<Dim>(a, b)] = set(0.5) * (L[a * Dim + b] + L[b * Dim + a]);
+  }
+  store(strain, out.strain, turn);
+  store(divergence, out.divergence, turn);
 }
 
 template <int Dim>
 HWY_INLINE void gather_all(const LaneModel<Dim>& model, const NodeLanes<Dim>& group,
                            const NearNodes<Dim>& fluid, const NearNodes<Dim>& boundary,
-                           GradientLanes<Dim>& out) {
+                           const CloseGroup& close, GradientLanes<Dim>& out) {
   const Wendland kernel(model.kernel);
   for (std::size_t turn = 0; turn < kGroup; turn += kLanes) {
     GradientSums<Dim> sums;
     sums.clear();
-    gather<Dim>(kernel, group, turn, fluid, sums);
+    const std::size_t vector = turn / kLanes;
+    if (fluid.near.lanes == nullptr)
+      close.end_at(gather<Dim, false, true>(kernel, group, turn, fluid, close.begin(vector), sums), vector);
+    else
+      gather<Dim, true, false>(kernel, group, turn, fluid, nullptr, sums);
     gather<Dim>(kernel, group, turn, boundary, sums);
-    scale<Dim>(set(model.kernel.at_zero()), sums);
+    scale<Dim>(set(Wendland::value_factor(model.kernel)), sums);
     finish<Dim>(sums, model.moment_floor, turn, out);
   }
 }
 
 void gradients_2d(const LaneModel<2>& model, const NodeLanes<2>& group, const NearNodes<2>& fluid,
-                  const NearNodes<2>& boundary, GradientLanes<2>& out) {
-  gather_all<2>(model, group, fluid, boundary, out);
+                  const NearNodes<2>& boundary, const CloseGroup& close, GradientLanes<2>& out) {
+  gather_all<2>(model, group, fluid, boundary, close, out);
 }
 void gradients_3d(const LaneModel<3>& model, const NodeLanes<3>& group, const NearNodes<3>& fluid,
-                  const NearNodes<3>& boundary, GradientLanes<3>& out) {
-  gather_all<3>(model, group, fluid, boundary, out);
+                  const NearNodes<3>& boundary, const CloseGroup& close, GradientLanes<3>& out) {
+  gather_all<3>(model, group, fluid, boundary, close, out);
+}
+
+std::size_t vectors() {
+  return kGroup / kLanes;
 }
 
 }  // namespace sluice::fluid::HWY_NAMESPACE
@@ -203,16 +245,21 @@ namespace sluice::fluid {
 
 HWY_EXPORT(gradients_2d);
 HWY_EXPORT(gradients_3d);
+HWY_EXPORT(vectors);
+
+std::size_t vectors_of_group() {
+  return HWY_DYNAMIC_DISPATCH(vectors)();
+}
 
 template <>
 void gather_gradients(const LaneModel<2>& model, const NodeLanes<2>& group, const NearNodes<2>& fluid,
-                      const NearNodes<2>& boundary, GradientLanes<2>& out) {
-  HWY_DYNAMIC_DISPATCH(gradients_2d)(model, group, fluid, boundary, out);
+                      const NearNodes<2>& boundary, const CloseGroup& close, GradientLanes<2>& out) {
+  HWY_DYNAMIC_DISPATCH(gradients_2d)(model, group, fluid, boundary, close, out);
 }
 template <>
 void gather_gradients(const LaneModel<3>& model, const NodeLanes<3>& group, const NearNodes<3>& fluid,
-                      const NearNodes<3>& boundary, GradientLanes<3>& out) {
-  HWY_DYNAMIC_DISPATCH(gradients_3d)(model, group, fluid, boundary, out);
+                      const NearNodes<3>& boundary, const CloseGroup& close, GradientLanes<3>& out) {
+  HWY_DYNAMIC_DISPATCH(gradients_3d)(model, group, fluid, boundary, close, out);
 }
 
 }  // namespace sluice::fluid

@@ -30,8 +30,8 @@ class GroupSearch {
                const SearchGrids<Dim>& grids, const Visibility<Dim>& visibility, double reach, double cell,
                const Parallel& parallel);
 
-  // Fluid near a group of fluid, its own particles among it.
-  [[nodiscard]] NearGroup fluid_near_fluid(std::size_t group) const { return fluid_.of(group); }
+  // Fluid near every group of fluid, its own particles among it.
+  [[nodiscard]] const GroupList& fluid_near_fluid() const { return fluid_; }
   [[nodiscard]] NearGroup boundary_near_fluid(std::size_t group) const { return boundary_.of(group); }
   // Boundary particles near one fluid particle, and few beyond the reach; `buffer` holds them.
   [[nodiscard]] std::span<const std::uint32_t> boundary_near_particle(

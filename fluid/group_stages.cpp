@@ -33,6 +33,18 @@ Mat<Dim> sym_at(const LaneSym<Dim>& lanes, std::size_t l) {
     for (int b = a; b < Dim; ++b) m(a, b) = m(b, a) = lanes[k++][l];
   return m;
 }
+// Entry by entry into place: a matrix that is returned is written by entries and read by pairs of them at
+// once, which stalls.
+template <int Dim>
+void take(const LaneVec<Dim>& lanes, std::size_t l, Vec<Dim>& v) {
+  for (int a = 0; a < Dim; ++a) v[a] = lanes[static_cast<std::size_t>(a)][l];
+}
+template <int Dim>
+void take(const LaneSym<Dim>& lanes, std::size_t l, Mat<Dim>& m) {
+  std::size_t k = 0;
+  for (int a = 0; a < Dim; ++a)
+    for (int b = a; b < Dim; ++b, ++k) m(a, b) = m(b, a) = lanes[k][l];
+}
 template <int Dim>
 void put(const Vec<Dim>& v, std::size_t l, LaneVec<Dim>& lanes) {
   for (int a = 0; a < Dim; ++a) lanes[static_cast<std::size_t>(a)][l] = v[a];
@@ -67,20 +79,25 @@ void GroupStages<Dim>::mirror_velocities(const Particles<Dim>& fluid,
 template <int Dim>
 void GroupStages<Dim>::compute_gradients(const BoundaryParticles<Dim>& boundary,
                                          Particles<Dim>& fluid) const {
+  close_.fit(search_.fluid_near_fluid(), vectors_of_group());
   for_fluid_groups(fluid.size(), [&](std::size_t group) {
     GradientLanes<Dim> lanes;
     gather_gradients<Dim>(model_, node_lanes(fluid.node, fluid.size(), group),
-                          {search_.fluid_near_fluid(group), fluid.node.data()},
-                          {search_.boundary_near_fluid(group), boundary.node().data()}, lanes);
+                          {search_.fluid_near_fluid().of(group), fluid.node.data()},
+                          {search_.boundary_near_fluid(group), boundary.node().data()}, close_.of(group),
+                          lanes);
     for (std::size_t i = group * kGroup; i < group_end(group, fluid.size()); ++i) {
       const std::size_t l = i % kGroup;
-      fluid.fit[i] = {lanes.m0[l], vec_at<Dim>(lanes.g, l), sym_at<Dim>(lanes.G, l), lanes.floored[l],
-                      lanes.a[l]};
-      const Mat<Dim> L = mat_at<Dim>(lanes.L, l);
-      fluid.source[i].grad_rho = vec_at<Dim>(lanes.grad_rho, l);
-      fluid.source[i].strain = strain_rate<Dim>(L);
-      fluid.divergence[i] = L.trace();
-      if (!fluid.L.empty()) fluid.L[i] = L;
+      Fit<Dim>& fit = fluid.fit[i];
+      fit.m0 = lanes.m0[l];
+      fit.a = lanes.a[l];
+      fit.floored = lanes.floored[l];
+      take<Dim>(lanes.g, l, fit.g);
+      take<Dim>(lanes.G, l, fit.G);
+      take<Dim>(lanes.grad_rho, l, fluid.source[i].grad_rho);
+      take<Dim>(lanes.strain, l, fluid.source[i].strain);
+      fluid.divergence[i] = lanes.divergence[l];
+      if (!fluid.L.empty()) fluid.L[i] = mat_at<Dim>(lanes.L, l);
     }
   });
 }
@@ -118,11 +135,15 @@ void GroupStages<Dim>::compute_forces(const BoundaryParticles<Dim>& boundary, Pa
       for (int a = 0; a < Dim; ++a)
         for (int b = a; b < Dim; ++b) lanes.strain[k++][l] = source.strain(a, b);
     }
-    gather_forces<Dim>(model_, node_lanes(fluid.node, fluid.size(), group), search_.fluid_near_fluid(group),
-                       fluid, search_.boundary_near_fluid(group), boundary, lanes);
+    gather_forces<Dim>(model_, node_lanes(fluid.node, fluid.size(), group),
+                       search_.fluid_near_fluid().of(group), close_.of(group), fluid,
+                       search_.boundary_near_fluid(group), boundary, lanes);
     for (std::size_t i = group * kGroup; i < group_end(group, fluid.size()); ++i) {
-      fluid.acceleration[i] = model_.gravity + vec_at<Dim>(lanes.force, i % kGroup) / fluid.mass[i];
-      fluid.density_rate[i] = lanes.density_rate[i % kGroup];
+      const std::size_t l = i % kGroup;
+      for (int a = 0; a < Dim; ++a)
+        fluid.acceleration[i][a] =
+            model_.gravity[a] + lanes.force[static_cast<std::size_t>(a)][l] / fluid.mass[i];
+      fluid.density_rate[i] = lanes.density_rate[l];
     }
   });
 }

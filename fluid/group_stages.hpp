@@ -15,8 +15,10 @@ namespace sluice::fluid {
 template <int Dim>
 class GroupStages {
  public:
-  GroupStages(const LaneModel<Dim>& model, const GroupSearch<Dim>& search, const Parallel& parallel)
-      : model_(model), search_(search), parallel_(parallel) {}
+  // What compute_gradients finds `close` is for compute_forces.
+  GroupStages(const LaneModel<Dim>& model, const GroupSearch<Dim>& search, const Parallel& parallel,
+              CloseList& close)
+      : model_(model), search_(search), parallel_(parallel), close_(close) {}
 
   // boundary_velocity.hpp
   void mirror_velocities(const Particles<Dim>& fluid, BoundaryParticles<Dim>& boundary) const;
@@ -45,6 +47,7 @@ class GroupStages {
   const LaneModel<Dim>& model_;
   const GroupSearch<Dim>& search_;
   const Parallel& parallel_;
+  CloseList& close_;
 };
 
 extern template class GroupStages<2>;

@@ -91,31 +91,42 @@ HWY_INLINE M lanes_of(const std::uint8_t* lanes, std::size_t item, std::size_t t
   return hn::LoadMaskBits(D(), bits);
 }
 
-// WendlandC2 of kernel.hpp but for its constants, by which the sums are multiplied at their end: with u = 1 -
-// q/2
-//   W/A = u^4 (5 - 4 u),   F h^2/(5 A) = u^3.
+// WendlandC2 of kernel.hpp but for its constants, by which the sums are multiplied at their end. With the way
+// d = 2h - r to the edge of the support
+//   W = value_factor() d^4 (5h/2 - d),   F = slope_factor() d^3,
+// which takes four products fewer than with q.
 struct Wendland {
   template <int Dim>
   HWY_INLINE explicit Wendland(const WendlandC2<Dim>& kernel)
-      : half_inverse_h(set(kernel.half_inverse_h())), one(set(1.0)), five(set(5.0)), four(set(4.0)) {}
+      : support(set(kernel.support())), root(set(1.25 * kernel.support())) {}
 
-  HWY_INLINE V value(V r2) const {
-    const V u = from_edge(r2), u2 = u * u;
-    return u2 * u2 * hn::NegMulAdd(four, u, five);
+  // d, from r^2.
+  HWY_INLINE V from_edge(V r2) const { return hn::Max(hn::Zero(D()), support - hn::Sqrt(r2)); }
+
+  HWY_INLINE V value_at(V d) const {
+    const V d2 = d * d;
+    return d2 * d2 * (root - d);
+  }
+  HWY_INLINE V value(V r2) const { return value_at(from_edge(r2)); }
+
+  HWY_INLINE void value_and_slope_at(V d, V& w, V& f) const {
+    const V d2 = d * d;
+    f = d2 * d;
+    w = d2 * d2 * (root - d);
   }
 
-  HWY_INLINE void value_and_slope(V r2, V& w, V& f) const {
-    const V u = from_edge(r2);
-    f = u * u * u;
-    w = f * u * hn::NegMulAdd(four, u, five);
+  template <int Dim>
+  static double value_factor(const WendlandC2<Dim>& kernel) {
+    const double s = kernel.support();
+    return kernel.at_zero() * 4.0 / (s * s * s * s * s);
+  }
+  template <int Dim>
+  static double slope_factor(const WendlandC2<Dim>& kernel) {
+    const double s = kernel.support();
+    return kernel.slope() / (s * s * s);
   }
 
-  V half_inverse_h, one, five, four;
-
- private:
-  HWY_INLINE V from_edge(V r2) const {
-    return hn::Max(hn::Zero(D()), hn::NegMulAdd(hn::Sqrt(r2), half_inverse_h, one));
-  }
+  V support, root;
 };
 
 }  // namespace sluice::fluid::HWY_NAMESPACE

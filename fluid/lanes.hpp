@@ -8,6 +8,7 @@
 #include <array>
 
 #include "fluid/boundary.hpp"
+#include "fluid/close_list.hpp"
 #include "fluid/group_list.hpp"
 #include "fluid/model.hpp"
 #include "fluid/particles.hpp"
@@ -71,20 +72,24 @@ struct NearNodes {
   const Node<Dim>* node;
 };
 
-// Sweep 1: the fit and the gradients, gradient_sweep.hpp.
+// Vectors that a group is done in.
+std::size_t vectors_of_group();
+
+// Sweep 1: the fit and the gradients, gradient_sweep.hpp; and which fluid is `close`, where no lanes are
+// masked.
 template <int Dim>
 struct GradientLanes {
-  Lanes m0, a;
+  Lanes m0, a, divergence;
   LaneVec<Dim> g, grad_rho;
-  LaneSym<Dim> G;
+  LaneSym<Dim> G, strain;
   LaneMat<Dim> L;
   std::array<bool, kGroup> floored;
 };
 template <int Dim>
 void gather_gradients(const LaneModel<Dim>& model, const NodeLanes<Dim>& group, const NearNodes<Dim>& fluid,
-                      const NearNodes<Dim>& boundary, GradientLanes<Dim>& out);
+                      const NearNodes<Dim>& boundary, const CloseGroup& close, GradientLanes<Dim>& out);
 
-// Sweep 2: force [N] and density rate, force_sweep.hpp.
+// Sweep 2, of what is `close` unless lanes are masked: force [N] and density rate, force_sweep.hpp.
 template <int Dim>
 struct ForceLanes {
   // Of the group:
@@ -96,7 +101,7 @@ struct ForceLanes {
 };
 template <int Dim>
 void gather_forces(const LaneModel<Dim>& model, const NodeLanes<Dim>& group, const NearGroup& fluid,
-                   const Particles<Dim>& particles, const NearGroup& boundary,
+                   const CloseGroup& close, const Particles<Dim>& particles, const NearGroup& boundary,
                    const BoundaryParticles<Dim>& walls, ForceLanes<Dim>& lanes);
 
 // What a group of boundary particles takes from the fluid near it. Sums over f of W times

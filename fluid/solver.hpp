@@ -44,6 +44,16 @@ struct Diagnostics {
   std::vector<Passage> openings;                               // as in Setup
 };
 
+// Wall clock of all steps so far, and of their stages [s]; the rest are passes over the particles.
+struct StageTimes {
+  double search = 0;     // neighbour lists, sorting
+  double boundary = 0;   // what boundary particles take from the fluid
+  double gradients = 0;  // sweep 1
+  double forces = 0;     // sweep 2
+  double reactions = 0;  // wrenches on bodies and walls
+  double steps = 0;
+};
+
 // Liquids, walls and moving bodies, stepped explicitly. Holds no global state.
 class Solver {
  public:
@@ -79,6 +89,7 @@ class Solver {
   [[nodiscard]] virtual double largest_step(double max_speed) const = 0;
   [[nodiscard]] virtual Snapshot snapshot() const = 0;
   [[nodiscard]] virtual Diagnostics diagnostics() const = 0;
+  [[nodiscard]] virtual StageTimes stage_times() const = 0;
 };
 
 // Throws std::invalid_argument naming the value when the setup is not usable.

@@ -36,7 +36,7 @@ class Water {
     search_->update(fluid_, *boundary_, parallel_);
   }
 
-  [[nodiscard]] GroupStages<Dim> groups() const { return {*model_, search_->groups(), parallel_}; }
+  [[nodiscard]] GroupStages<Dim> groups() { return {*model_, search_->groups(), parallel_, close_}; }
 
   void mirror_singly(BoundaryParticles<Dim>& boundary) const {
     for_active([&](std::size_t a, std::size_t w) {
@@ -84,6 +84,7 @@ class Water {
   std::optional<BoundaryParticles<Dim>> boundary_;
   std::optional<NeighborSearch<Dim>> search_;
   Particles<Dim> fluid_;
+  CloseList close_;
 
  private:
   static Setup make_setup(std::mt19937_64& random) {
