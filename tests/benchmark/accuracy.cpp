@@ -70,7 +70,7 @@ int accuracy(const AccuracyOptions& options) {
   }
   const std::string text = to_csv(tables);
   if (csv.is_open()) csv << text << std::flush;
-  if (!options.plot.empty()) plot(text, options.plot);
+  if (!options.plot.empty()) plot("plot_accuracy.py", text, options.plot);
   const bool missed = std::any_of(tables.begin(), tables.end(), [](const CaseTable& table) {
     return table.any_missed(all_formulations().front().name);
   });

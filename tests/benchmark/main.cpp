@@ -85,6 +85,8 @@ CLI::App* add_speed(CLI::App& app, SpeedOptions& options) {
       ->capture_default_str();
   command->add_flag("--quick", options.quick, "The smallest of each case, for seconds");
   command->add_option("--csv", options.csv, "Write the table to this file")->type_name("FILE");
+  command->add_option("--plot", options.plot, "Draw speed over size and the stages' shares")
+      ->type_name("FILE.png");
   command->add_option("--baseline", options.baseline, "Compare with an earlier table")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");

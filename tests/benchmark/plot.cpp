@@ -17,10 +17,10 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-void plot(const std::string& csv, const std::string& picture) {
-  const auto script = std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() /
-                      "share/sluice/benchmark/plot_accuracy.py";
-  const std::string command = "/usr/bin/python3 " + quoted(script.string()) + " " + quoted(picture);
+void plot(const std::string& script, const std::string& csv, const std::string& picture) {
+  const auto path = std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() /
+                    "share/sluice/benchmark" / script;
+  const std::string command = "/usr/bin/python3 " + quoted(path.string()) + " " + quoted(picture);
   FILE* pipe = popen(command.c_str(), "w");
   if (pipe == nullptr) throw std::runtime_error("cannot start " + command);
   std::fwrite(csv.data(), 1, csv.size(), pipe);

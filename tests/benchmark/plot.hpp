@@ -4,8 +4,8 @@
 
 namespace sluice::benchmark {
 
-// Draws error over run time from the text of to_csv: log-log, a panel a case, a line a formulation. Throws
-// std::runtime_error when the script fails.
-void plot(const std::string& csv, const std::string& picture);
+// Draws what the script, one of this folder's, makes of the text of a table. Throws std::runtime_error when
+// it fails.
+void plot(const std::string& script, const std::string& csv, const std::string& picture);
 
 }  // namespace sluice::benchmark

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "benchmark/peak.hpp"
+#include "benchmark/plot.hpp"
 #include "benchmark/report.hpp"
 #include "benchmark/selection.hpp"
 #include "benchmark/speed_run.hpp"
@@ -16,7 +17,18 @@ namespace sluice::benchmark {
 
 namespace {
 
+// What is compared with a baseline; more columns follow.
 constexpr const char* kColumns = "scene,particles,threads,rate,neighbors,share,bytes,growth";
+
+// Share of the time of a step that each stage takes, by its column.
+std::vector<std::pair<std::string, double>> stage_shares(const fluid::StageTimes& t) {
+  const double known = t.search + t.boundary + t.gradients + t.forces + t.reactions;
+  std::vector<std::pair<std::string, double>> shares{{"search", t.search},       {"boundary", t.boundary},
+                                                     {"gradients", t.gradients}, {"forces", t.forces},
+                                                     {"reactions", t.reactions}, {"passes", t.steps - known}};
+  for (auto& [name, share] : shares) share /= t.steps;
+  return shares;
+}
 
 const SpeedRow* find_like(const std::vector<SpeedRow>& rows, const SpeedRow& row) {
   const auto found = std::find_if(rows.begin(), rows.end(), [&](const SpeedRow& other) {
@@ -30,6 +42,8 @@ void print(const SpeedRow& row, const std::vector<SpeedRow>& baseline) {
              1e-6 * row.rate, row.neighbors, 1e-6 * row.rate * row.neighbors, 100 * row.share, row.bytes,
              row.growth);
   if (const SpeedRow* before = find_like(baseline, row)) fmt::print("{:>9.2f}", row.rate / before->rate);
+  fmt::print("\n{:>19}", "");
+  for (const auto& [stage, share] : stage_shares(row.stages)) fmt::print(" {} {:.0f} %", stage, 100 * share);
   fmt::print("\n");
   std::fflush(stdout);
 }
@@ -57,19 +71,23 @@ void run_case(const SpeedScene& scene, const SpeedOptions& options, double peak,
 }  // namespace
 
 std::string to_csv(const std::vector<SpeedRow>& rows) {
-  std::string text = std::string(kColumns) + "\n";
-  for (const SpeedRow& r : rows)
-    text += fmt::format("{},{},{},{:.6g},{:.4g},{:.4g},{:.4g},{:.4g}\n", r.scene, r.particles, r.threads,
+  std::string text = kColumns;
+  for (const auto& [stage, share] : stage_shares({})) text += "," + stage;
+  for (const SpeedRow& r : rows) {
+    text += fmt::format("\n{},{},{},{:.6g},{:.4g},{:.4g},{:.4g},{:.4g}", r.scene, r.particles, r.threads,
                         r.rate, r.neighbors, r.share, r.bytes, r.growth);
-  return text;
+    for (const auto& [stage, share] : stage_shares(r.stages)) text += fmt::format(",{:.4g}", share);
+  }
+  return text + "\n";
 }
 
 std::vector<SpeedRow> read_speed_csv(const std::string& path) {
   std::ifstream file(path);
   std::string line;
-  if (!std::getline(file, line) || line != kColumns)
-    throw protocol::InputError(fmt::format(
-        "{}: not a table of `sluice bench speed --csv`: its first line must be '{}'", path, kColumns));
+  if (!std::getline(file, line) || !line.starts_with(kColumns))
+    throw protocol::InputError(
+        fmt::format("{}: not a table of `sluice bench speed --csv`: its first line must begin with '{}'",
+                    path, kColumns));
   std::vector<SpeedRow> rows;
   for (int number = 2; std::getline(file, line); ++number) {
     std::replace(line.begin(), line.end(), ',', ' ');
@@ -93,6 +111,7 @@ int speed(const SpeedOptions& options) {
   fmt::print("peak of one core: {:.1f} GFLOP/s in double precision\n\n", 1e-9 * peak);
   for (const SpeedScene& scene : scenes) run_case(scene, options, peak, baseline, rows);
   if (csv.is_open()) csv << to_csv(rows) << std::flush;
+  if (!options.plot.empty()) plot("plot_speed.py", to_csv(rows), options.plot);
   return protocol::kDone;
 }
 

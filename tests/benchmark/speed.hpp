@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "fluid/solver.hpp"
+
 namespace sluice::benchmark {
 
 struct SpeedOptions {
@@ -12,6 +14,7 @@ struct SpeedOptions {
   bool quick = false;    // the smallest of each case, for a tenth of the time
   std::string csv;       // file; empty: none
   std::string baseline;  // an earlier csv to compare with; empty: none
+  std::string plot;      // picture; empty: none
 };
 
 // What a scene cost.
@@ -24,6 +27,8 @@ struct SpeedRow {
   double share = 0;      // floating-point operations on those pairs, of the peak of the threads' cores
   double bytes = 0;      // that the process grew by, a fluid particle
   double growth = 1;     // time a particle step over that of the case's smallest
+  // Of the timed steps, wall clock [s]. Not read back.
+  fluid::StageTimes stages{};
 };
 
 // Prints the table, writes the files. Returns the exit code. Throws InputError for a case that does not exist

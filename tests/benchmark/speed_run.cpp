@@ -26,7 +26,7 @@ double resident() {
 // Floating-point operations a pair in both sweeps, a multiply-add counting as two, roots and divisions as
 // one: counted in gradient_lanes.cpp and force_lanes.cpp.
 double operations_per_pair(int dimension) {
-  return dimension == 2 ? 48 + 75 : 79 + 124;
+  return dimension == 2 ? 45 + 63 : 71 + 102;
 }
 
 template <int Dim>
@@ -57,6 +57,11 @@ double advance(validation::SceneRun& run, double particle_steps, double particle
          static_cast<double>(steps);
 }
 
+fluid::StageTimes difference(const fluid::StageTimes& a, const fluid::StageTimes& b) {
+  return {a.search - b.search, a.boundary - b.boundary,   a.gradients - b.gradients,
+          a.forces - b.forces, a.reactions - b.reactions, a.steps - b.steps};
+}
+
 }  // namespace
 
 SpeedRow run_for_speed(const SpeedScene& scene, double particles, int threads, const SpeedEffort& effort,
@@ -65,8 +70,10 @@ SpeedRow run_for_speed(const SpeedScene& scene, double particles, int threads, c
   validation::SceneRun run(scene.make(particles), threads);
   const auto count = static_cast<double>(run.masses().size());
   advance(run, effort.warm_up, count);
+  const fluid::StageTimes until_then = run.solver().stage_times();
   const double seconds = advance(run, effort.timed, count);
   SpeedRow row{.scene = scene.name, .particles = run.masses().size(), .threads = threads};
+  row.stages = difference(run.solver().stage_times(), until_then);
   row.bytes = (resident() - before) / count;
   row.rate = count / seconds;
   const double h = run.scene().formulation().smoothing() * run.scene().spacing();

@@ -76,6 +76,7 @@ class FakeSolver : public fluid::Solver {
   [[nodiscard]] fluid::Wrench wall_wrench() const override { return {}; }
   [[nodiscard]] double largest_step(double) const override { return script_.largest_step; }
   [[nodiscard]] fluid::Snapshot snapshot() const override { return state_; }
+  [[nodiscard]] fluid::StageTimes stage_times() const override { return {}; }
   [[nodiscard]] fluid::Diagnostics diagnostics() const override {
     fluid::Diagnostics diagnostics;
     diagnostics.kinetic = static_cast<double>(steps_);
