@@ -61,11 +61,14 @@ Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos) {
   fluid.density_rate.assign(n, 0.0);
   fluid.pressure.assign(n, 0.0);
   fluid.divergence.assign(n, 0.0);
-  if (setup.formulation.shifting > 0.0) fluid.L.assign(n, Mat<Dim>::Zero());
-  if (setup.has_viscous_stress()) fluid.stress.assign(n, Mat<Dim>::Zero());
+  // An empty array is one that is not in use, and a tank may start without liquid.
+  const std::size_t in_use = std::max<std::size_t>(n, 1);
+  if (setup.formulation.shifting > 0.0) fluid.L.assign(in_use, Mat<Dim>::Zero());
+  if (setup.has_viscous_stress()) fluid.stress.assign(in_use, Mat<Dim>::Zero());
   fluid.fit.resize(n);
   fluid.source.resize(n);
-  if (setup.formulation.approximation == Approximation::mls_full_derivative) fluid.slope_source.resize(n);
+  if (setup.formulation.approximation == Approximation::mls_full_derivative)
+    fluid.slope_source.resize(in_use);
   if (setup.formulation.quadrature == Quadrature::stress_points)
     fluid.point_source.resize(Particles<Dim>::kPoints * n);
   return fluid;

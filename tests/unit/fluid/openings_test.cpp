@@ -69,6 +69,19 @@ TEST(Openings, AUniformStreamStaysUniformBetweenMirrors) {
   EXPECT_LT(largest_deviation(end->snapshot(), {Stream::kSpeed, 0, 0}), 1e-12 * Stream::kSpeed);
 }
 
+// A tank that starts without liquid: the viscous stress is there all the same once some has come in.
+TEST(Openings, AViscousStreamComesIntoAnEmptyTank) {
+  fluid::Setup setup = Stream::closed(2, {2, 1, 0}).setup;
+  setup.fluid.position.clear();
+  setup.fluid.velocity.clear();
+  setup.fluid.pressure.clear();
+  setup.liquid.viscosity = 1;
+  const auto end = run(setup, 1.0, Stream::kSpeed);
+  const Diagnostics after = end->diagnostics();
+  EXPECT_NEAR(after.mass, net_inflow(after), 1e-12 * after.mass);
+  EXPECT_NEAR(after.mass, 1000 * Stream::kSpeed * 1.0, 0.1 * after.mass);
+}
+
 // A gust in the stream leaves through the outflow; energy goes down by what dissipation takes, of the gust's.
 TEST(Openings, LetADisturbanceOut) {
   fluid::Setup setup = Stream::closed(2, {2, 1, 0}).setup;
