@@ -26,7 +26,8 @@ struct GradientSums {
   }
 };
 
-// Where a neighbour stands, found one neighbour ahead: all else of a pair waits for the root.
+// Where a neighbour stands, found two neighbours ahead: all else of a pair waits for the root, and so does what
+// follows a wrong guess of whether it is close.
 template <int Dim>
 struct Ahead {
   Vecs<Dim> x_ji;
@@ -50,12 +51,13 @@ HWY_INLINE std::uint32_t* gather(const Wendland& kernel, const NodeLanes<Dim>& g
     ahead.d = kernel.from_edge(dot(ahead.x_ji, ahead.x_ji));
     return ahead;
   };
-  Ahead<Dim> next = look(0);
+  Ahead<Dim> next = look(0), second = look(count > 1 ? 1 : 0);
   for (std::size_t k = 0; k < count; ++k) {
     const Node<Dim>& j = near.node[near.near.index[k]];
     const Vecs<Dim> x_ji = next.x_ji;
     const V d = next.d;
-    next = look(k + 1 < count ? k + 1 : k);
+    next = second;
+    second = look(k + 2 < count ? k + 2 : k);
     if constexpr (kClose) {
       if (hn::AllFalse(D(), hn::Gt(d, hn::Zero(D())))) continue;
       *close++ = near.near.index[k];
