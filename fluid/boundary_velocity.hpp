@@ -21,11 +21,7 @@ inline constexpr double kLargestRatio = 2.0, kLargestNoSlipRatio = 6.0;
 // that component changes sign as well, but in the shear only (no_slip.hpp). With the body's own velocity
 // instead, the divergence near a wall is about half of the fluid's and its stress power is lost: a standing
 // wave in a tank one wave long loses 2 % a period at H/25.
-//
-// Fluid that passes by the surface's edge, more than half as far behind the surface as w, has no mirror image
-// in it and goes on as it is: mirrored in the ends of a channel's walls, a jet left the channel with 1.4
-// times its speed. What has been pressed through the surface is nearer to it than that. `flow` is that of the
-// fluid near relative to the body.
+// `flow` is that of the fluid near relative to the body.
 template <int Dim, typename Kernel>
 void mirror_flow(const Model<Dim, Kernel>& model, const Extrapolation<Dim, Dim>& flow, std::size_t w,
                  BoundaryParticles<Dim>& boundary) {
@@ -35,12 +31,7 @@ void mirror_flow(const Model<Dim, Kernel>& model, const Extrapolation<Dim, Dim>&
   if (boundary.sticks()) boundary.sticking[w].setZero();
   if (flow.empty()) return;
   const Surface<Dim>& surface = boundary.surface(w);
-  const double in_front = flow.centroid().dot(surface.normal) - surface.depth;
-  if (in_front < -0.5 * surface.depth) {
-    node.v += flow.mean();
-    return;
-  }
-  const double distance = std::max(in_front, 0.25 * model.spacing);
+  const double distance = std::max(flow.centroid().dot(surface.normal) - surface.depth, 0.25 * model.spacing);
   const double ratio = std::min(surface.depth / distance, kLargestRatio);
   const Vec<Dim> along = flow.centroid() - surface.across * flow.centroid();
   const Vec<Dim> continued = flow.mean() - flow.slope(model.moment_floor) * along;

@@ -133,8 +133,7 @@ TEST_P(ConservationOf, ASplash) {
   for (const int dimension : {2, 3}) {
     SCOPED_TRACE(testing::Message() << "dimension " << dimension);
     Splash splash(dimension, choice.viscosity, 1, choice.choose);
-    // Until the plate has met the water, with any choice.
-    const Closure worst = closure(splash, dimension == 2 ? 150 : 220);
+    const Closure worst = closure(splash, 150);
     expect_forces(worst, splash, 0.005);
     expect_closed(worst.linear, choice.linear);
     expect_closed(worst.angular, choice.angular);
