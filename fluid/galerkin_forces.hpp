@@ -18,17 +18,27 @@ namespace sluice::fluid {
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::evaluate_forces() {
   compute_stress();
+  compute_actions();
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::evaluate() {
+  evaluate_forces();
+  take_reactions();
+  update_volumes();
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::compute_actions() {
   extrapolate_to_boundary();
   if (tension_control_ || shifting_.is_used()) surface_.detect(model_, fluid_, parallel_);
   compute_forces();
 }
 
 template <int Dim, typename Kernel>
-void GalerkinSolver<Dim, Kernel>::evaluate() {
-  evaluate_forces();
+void GalerkinSolver<Dim, Kernel>::take_reactions() {
   collect_wrenches();
   if (shifting_.is_used()) shifting_.compute(model_, fluid_, boundary_, search_, surface_, parallel_);
-  update_volumes();
 }
 
 // V_k of the quadrature. Node::volume weighs the neighbours in the moments, CF (11), and is the same then;
@@ -41,25 +51,34 @@ double GalerkinSolver<Dim, Kernel>::quadrature_volume(std::size_t i) const {
 
 // CF (60), (64). The volumes stay those of sweep 1, so that sum grad N = 0 holds for the forces too.
 template <int Dim, typename Kernel>
-void GalerkinSolver<Dim, Kernel>::compute_stress() {
+void GalerkinSolver<Dim, Kernel>::set_stress(std::size_t i) {
   using Rule = Operator<Dim, Kernel>;
-  parallel_.for_each(fluid_.size(), [&](std::size_t i) {
-    fluid_.pressure[i] = model_.eos.pressure(fluid_.node[i].rho);
-    Mat<Dim> sigma = -fluid_.pressure[i] * Mat<Dim>::Identity();
-    if constexpr (Rule::kIsIsobaric) sigma.setZero();
-    if (!fluid_.stress.empty() && !fluid_.has_several_liquids()) {
-      // Where G is not the exact inverse, a shear stress would exert a moment: spray has none.
-      fluid_.stress[i] =
-          fluid_.fit[i].floored ? Mat<Dim>::Zero() : viscous_stress<Dim>(model_.mu, fluid_.source[i].strain);
-      sigma += fluid_.stress[i];
-    }
-    if constexpr (Rule::kIsDefault)
-      set_source<Dim>(quadrature_volume(i), sigma, fluid_.fit[i], fluid_.source[i]);
-    else if constexpr (Rule::kHasPoints)
-      Rule::set_source(model_.eos, quadrature_volume(i), sigma, coefficients_[i], fluid_, i);
-    else
-      Rule::set_source(quadrature_volume(i), sigma, coefficients_[i], fluid_, i);
-  });
+  fluid_.pressure[i] = model_.eos.pressure(fluid_.node[i].rho);
+  Mat<Dim> sigma = -fluid_.pressure[i] * Mat<Dim>::Identity();
+  if constexpr (Rule::kIsIsobaric) sigma.setZero();
+  if (!fluid_.stress.empty() && !fluid_.has_several_liquids()) {
+    // Where G is not the exact inverse, a shear stress would exert a moment: spray has none.
+    fluid_.stress[i] =
+        fluid_.fit[i].floored ? Mat<Dim>::Zero() : viscous_stress<Dim>(model_.mu, fluid_.source[i].strain);
+    sigma += fluid_.stress[i];
+  }
+  if constexpr (Rule::kIsDefault)
+    set_source<Dim>(quadrature_volume(i), sigma, fluid_.fit[i], fluid_.source[i]);
+  else if constexpr (Rule::kHasPoints)
+    Rule::set_source(model_.eos, quadrature_volume(i), sigma, coefficients_[i], fluid_, i);
+  else
+    Rule::set_source(quadrature_volume(i), sigma, coefficients_[i], fluid_, i);
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::compute_stress() {
+  parallel_.for_each(fluid_.size(), [&](std::size_t i) { set_stress(i); });
+  complete_stress();
+}
+
+// What several liquids, the surface and the images add.
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::complete_stress() {
   if (fluid_.has_several_liquids() && !fluid_.stress.empty()) compute_own_stress();
   if (surface_tension_.is_used()) surface_tension_.compute(search_, boundary_, parallel_, fluid_);
   search_.halo().refresh_sources(fluid_);
@@ -70,9 +89,8 @@ template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::compute_forces() {
   const Stopwatch watch(times_.forces);
   if constexpr (kHasGroups)
-    if (by_groups_) group_stages().compute_forces(boundary_, fluid_);
+    if (by_groups_) group_stages().compute_forces(boundary_, mirror_guard_, fluid_);
   if (!by_groups_) compute_single_forces();
-  mirror_guard_.accelerate(parallel_, fluid_);
   if (surface_tension_.is_used()) surface_tension_.accelerate(parallel_, fluid_);
 }
 
@@ -87,6 +105,7 @@ void GalerkinSolver<Dim, Kernel>::compute_single_forces() {
     if (tension_control_) force += tension_correction(model_, fluid_, boundary_, search_, surface_, i);
     if (is_symmetrized_ || is_damped_) force += further_force(i);
     fluid_.acceleration[i] = model_.gravity + force / inertia(i);
+    mirror_guard_.accelerate(i, fluid_);
     fluid_.density_rate[i] = sweep.density_rate();
   });
 }
@@ -112,14 +131,19 @@ double GalerkinSolver<Dim, Kernel>::inertia(std::size_t i) const {
 
 // V = m/rho, for the next step: until here sweep 2 needed the volumes of sweep 1.
 template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::update_volume(std::size_t i) {
+  if (weights_ == Weights::kernel_and_volume)
+    fluid_.node[i].volume = fluid_.mass[i] / (fluid_.node[i].rho * fluid_.relative_density(i));
+}
+
+template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::update_volumes() {
-  if (fluid_.has_several_liquids())
-    parallel_.for_each(fluid_.size(), [&](std::size_t i) {
-      fluid_.node[i].volume = fluid_.mass[i] / (fluid_.node[i].rho * fluid_.relative_density(i));
-    });
-  else if (weights_ == Weights::kernel_and_volume)
-    parallel_.for_each(fluid_.size(),
-                       [&](std::size_t i) { fluid_.node[i].volume = fluid_.mass[i] / fluid_.node[i].rho; });
+  parallel_.for_each(fluid_.size(), [&](std::size_t i) { update_volume(i); });
+  update_boundary_volumes();
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::update_boundary_volumes() {
   for_active_boundary([&](std::size_t w) {
     boundary_.node()[w].volume = boundary_.sampled_volume(w) * boundary_.dilation[w];
   });

@@ -71,15 +71,18 @@ void GalerkinSolver<Dim, Kernel>::find_films() {
 // one in the time that sound takes across it, since its own divergence hardly feels it. Nor is there tension
 // between a particle and a mirror (mirror_guard.hpp).
 template <int Dim, typename Kernel>
-void GalerkinSolver<Dim, Kernel>::advance_density(double dt) {
+void GalerkinSolver<Dim, Kernel>::advance_density(std::size_t i, double dt) {
   const double rho0 = model_.eos.rest_density();
   const double acoustic_time = model_.h / model_.eos.sound_speed();
-  parallel_.for_each(fluid_.size(), [&](std::size_t i) {
-    double& rho = fluid_.node[i].rho;
-    rho += dt * (fluid_.density_rate[i] - rho * fluid_.divergence[i]);
-    if (rho < rho0 && mirror_guard_.is_film(fluid_.node[i].x)) rho = rho0;
-    if (fluid_.fit[i].floored) rho = rho0 + std::max(0.0, rho - rho0) / (1.0 + dt / acoustic_time);
-  });
+  double& rho = fluid_.node[i].rho;
+  rho += dt * (fluid_.density_rate[i] - rho * fluid_.divergence[i]);
+  if (rho < rho0 && mirror_guard_.is_film(fluid_.node[i].x)) rho = rho0;
+  if (fluid_.fit[i].floored) rho = rho0 + std::max(0.0, rho - rho0) / (1.0 + dt / acoustic_time);
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::advance_density(double dt) {
+  parallel_.for_each(fluid_.size(), [&](std::size_t i) { advance_density(i, dt); });
 }
 
 }  // namespace sluice::fluid

@@ -53,6 +53,7 @@ class GalerkinSolver final : public Solver {
  private:
   // The integrators; all but the first in integrators.hpp.
   void kick_drift_kick(double dt, std::span<const Kinematics> bodies);
+  void finish_with_openings(double dt);
   void leap_frog(double dt, std::span<const Kinematics> bodies);
   void predictor_corrector(double dt, std::span<const Kinematics> bodies);
   void multistep(double dt, std::span<const Kinematics> bodies);
@@ -61,26 +62,37 @@ class GalerkinSolver final : public Solver {
   void interpolate_velocities();
   // drift, and what follows from the new positions but the gradients
   void move(double dt, std::span<const Kinematics> bodies);
+  void shift_and_place(double dt, std::span<const Kinematics> bodies);
   void place(double dt, std::span<const Kinematics> bodies);
-  // From the density on.
+  // From the density on: the forces, with which the volumes go on to the next step.
   void evaluate_forces();
   void evaluate();
+  // From the stress on: the forces, and what follows from them.
+  void compute_actions();
+  void take_reactions();
 
-  // The stages of a step, in their order.
+  // The stages of a step, in their order. Those of a single particle i can share a pass over all.
   void kick(double dt);
+  void kick(std::size_t i, double dt) { fluid_.node[i].v += dt * fluid_.acceleration[i]; }
   void drift(double dt);
+  void drift(std::size_t i, double dt) { fluid_.node[i].x += dt * fluid_.node[i].v; }
   void move_boundary(double dt, std::span<const Kinematics> bodies);
   void find_neighbors();
   void hold_openings(double dt);
   void mirror_velocities();
   void compute_gradients();
   void advance_density(double dt);
+  void advance_density(std::size_t i, double dt);
   [[nodiscard]] double quadrature_volume(std::size_t i) const;
   void compute_stress();
+  void set_stress(std::size_t i);
+  void complete_stress();
   void extrapolate_to_boundary();
   void compute_forces();
   void collect_wrenches();
   void update_volumes();
+  void update_volume(std::size_t i);
+  void update_boundary_volumes();
 
   // All that a step changes but the neighbour search.
   auto state() {

@@ -65,9 +65,36 @@ void GalerkinSolver<Dim, Kernel>::step(double dt, std::span<const Kinematics> bo
 // gradient is taken, with the velocity of its middle.
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::kick_drift_kick(double dt, std::span<const Kinematics> bodies) {
-  kick(0.5 * dt);
-  move(dt, bodies);
+  const std::size_t n = fluid_.size();
+  if (interpolated_motion_ > 0.0) {
+    kick(0.5 * dt);
+    drift(dt);
+  } else {
+    parallel_.for_each(n, [&](std::size_t i) {
+      kick(i, 0.5 * dt);
+      drift(i, dt);
+    });
+  }
+  shift_and_place(dt, bodies);
   compute_gradients();
+  if (openings_.is_used()) return finish_with_openings(dt);
+  parallel_.for_each(n, [&](std::size_t i) {
+    advance_density(i, dt);
+    set_stress(i);
+  });
+  complete_stress();
+  compute_actions();
+  take_reactions();
+  parallel_.for_each(n, [&](std::size_t i) {
+    update_volume(i);
+    kick(i, 0.5 * dt);
+  });
+  update_boundary_volumes();
+}
+
+// The rest of the step where openings take a hand in what the passes above share.
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::finish_with_openings(double dt) {
   advance_density(dt);
   openings_.impose_density(fluid_, parallel_);
   evaluate();
@@ -78,6 +105,11 @@ void GalerkinSolver<Dim, Kernel>::kick_drift_kick(double dt, std::span<const Kin
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::move(double dt, std::span<const Kinematics> bodies) {
   drift(dt);
+  shift_and_place(dt, bodies);
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::shift_and_place(double dt, std::span<const Kinematics> bodies) {
   if (shifting_.is_used()) shifting_.apply(dt, fluid_, parallel_);
   place(dt, bodies);
 }
@@ -103,7 +135,7 @@ void GalerkinSolver<Dim, Kernel>::find_neighbors() {
 
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::kick(double dt) {
-  parallel_.for_each(fluid_.size(), [&](std::size_t i) { fluid_.node[i].v += dt * fluid_.acceleration[i]; });
+  parallel_.for_each(fluid_.size(), [&](std::size_t i) { kick(i, dt); });
 }
 
 template <int Dim, typename Kernel>

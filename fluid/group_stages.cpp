@@ -125,7 +125,8 @@ void GroupStages<Dim>::extrapolate(const Particles<Dim>& fluid, BoundaryParticle
 }
 
 template <int Dim>
-void GroupStages<Dim>::compute_forces(const BoundaryParticles<Dim>& boundary, Particles<Dim>& fluid) const {
+void GroupStages<Dim>::compute_forces(const BoundaryParticles<Dim>& boundary,
+                                      const MirrorGuard<Dim>& mirror_guard, Particles<Dim>& fluid) const {
   for_fluid_groups(fluid.size(), [&](std::size_t group) {
     ForceLanes<Dim> lanes;
     for (std::size_t l = 0; l < kGroup; ++l) {
@@ -143,6 +144,7 @@ void GroupStages<Dim>::compute_forces(const BoundaryParticles<Dim>& boundary, Pa
       for (int a = 0; a < Dim; ++a)
         fluid.acceleration[i][a] =
             model_.gravity[a] + lanes.force[static_cast<std::size_t>(a)][l] / fluid.mass[i];
+      mirror_guard.accelerate(i, fluid);
       fluid.density_rate[i] = lanes.density_rate[l];
     }
   });

@@ -6,6 +6,7 @@
 #include "fluid/force_sweep.hpp"
 #include "fluid/group_search.hpp"
 #include "fluid/lanes.hpp"
+#include "fluid/mirror_guard.hpp"
 #include "fluid/parallel.hpp"
 
 namespace sluice::fluid {
@@ -27,7 +28,8 @@ class GroupStages {
   // boundary_sweep.hpp, without viscous stress
   void extrapolate(const Particles<Dim>& fluid, BoundaryParticles<Dim>& boundary) const;
   // force_sweep.hpp: acceleration and density rate
-  void compute_forces(const BoundaryParticles<Dim>& boundary, Particles<Dim>& fluid) const;
+  void compute_forces(const BoundaryParticles<Dim>& boundary, const MirrorGuard<Dim>& mirror_guard,
+                      Particles<Dim>& fluid) const;
   // The force on the boundary particles of `groups`, by particle; without viscous stress.
   void react(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
              const std::vector<std::uint32_t>& groups, std::vector<Reaction<Dim>>& reaction) const;

@@ -169,7 +169,7 @@ void GalerkinSolver<Dim, Kernel>::drift(double dt) {
     });
     return;
   }
-  parallel_.for_each(fluid_.size(), [&](std::size_t i) { fluid_.node[i].x += dt * fluid_.node[i].v; });
+  parallel_.for_each(fluid_.size(), [&](std::size_t i) { drift(i, dt); });
 }
 
 }  // namespace sluice::fluid

@@ -30,12 +30,11 @@ class MirrorGuard {
     }
   }
 
-  void accelerate(const Parallel& parallel, Particles<Dim>& fluid) const {
-    for (const Plane<Dim>& plane : planes_)
-      parallel.for_each(fluid.size(), [&](std::size_t i) {
-        const double stretch = range_ - plane.distance(fluid.node[i].x);
-        if (stretch > 0.0) fluid.acceleration[i] += stiffness_ * stretch / fluid.mass[i] * plane.normal;
-      });
+  void accelerate(std::size_t i, Particles<Dim>& fluid) const {
+    for (const Plane<Dim>& plane : planes_) {
+      const double stretch = range_ - plane.distance(fluid.node[i].x);
+      if (stretch > 0.0) fluid.acceleration[i] += stiffness_ * stretch / fluid.mass[i] * plane.normal;
+    }
   }
 
   // The sides, the fluid in front of them.

@@ -173,7 +173,7 @@ void check_forces(std::uint64_t seed) {
   });
   std::vector<std::pair<Vec<Dim>, double>> singly;
   for (std::size_t i = 0; i < water.fluid_.size(); ++i) singly.push_back(water.force_singly(i));
-  water.groups().compute_forces(*water.boundary_, water.fluid_);
+  water.groups().compute_forces(*water.boundary_, MirrorGuard<Dim>({}, *water.model_), water.fluid_);
   for (std::size_t i = 0; i < singly.size(); ++i) {
     expect_same(water.fluid_.acceleration[i], singly[i].first, 1e4, i, "acceleration");
     EXPECT_NEAR(water.fluid_.density_rate[i], singly[i].second, 1e-7) << i;
