@@ -19,7 +19,7 @@ bool is_at_surface(const Model<Dim, Kernel>& model, const Fit<Dim>& fit) {
   return fit.m0 < 0.85 && fit.g.norm() * model.spacing > 0.5;
 }
 
-// Which fluid particles are at the free surface, and which see one of those.
+// Which fluid particles are at the free surface, which see one of those, and where it is.
 template <int Dim>
 class FreeSurface {
  public:
@@ -37,6 +37,17 @@ class FreeSurface {
     for (const std::uint32_t j : search.fluid_near_fluid(i))
       if (at_surface_[j]) return false;
     return true;
+  }
+
+  // Unit vector into the fluid, the mean of those of the surface in the support of particle i; zero where it
+  // is deep.
+  [[nodiscard]] Vec<Dim> normal(std::size_t i, const Particles<Dim>& fluid,
+                                const NeighborSearch<Dim>& search) const {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    if (at_surface_[i]) sum += fluid.fit[i].g;
+    for (const std::uint32_t j : search.fluid_near_fluid(i))
+      if (at_surface_[j]) sum += fluid.fit[j].g;
+    return sum.normalized();
   }
 
   auto state() { return std::tie(at_surface_); }

@@ -91,6 +91,7 @@ void GalerkinSolver<Dim, Kernel>::compute_forces() {
   if constexpr (kHasGroups)
     if (by_groups_) group_stages().compute_forces(boundary_, mirror_guard_, fluid_);
   if (!by_groups_) compute_single_forces();
+  if (tension_control_) relieve_tension();
   if (surface_tension_.is_used()) surface_tension_.accelerate(parallel_, fluid_);
 }
 
@@ -102,11 +103,18 @@ void GalerkinSolver<Dim, Kernel>::compute_single_forces() {
     sweep.gather_fluid(search_.fluid_near_fluid(i));
     sweep.gather_boundary(search_.boundary_near_fluid(i), boundary_);
     Vec<Dim> force = sweep.force();
-    if (tension_control_) force += tension_correction(model_, fluid_, boundary_, search_, surface_, i);
     if (is_symmetrized_ || is_damped_) force += further_force(i);
     fluid_.acceleration[i] = model_.gravity + force / inertia(i);
     mirror_guard_.accelerate(i, fluid_);
     fluid_.density_rate[i] = sweep.density_rate();
+  });
+}
+
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::relieve_tension() {
+  parallel_.for_each(fluid_.size(), [&](std::size_t i) {
+    const Vec<Dim> force = tension_correction(model_, fluid_, boundary_, search_, surface_, i);
+    if (!force.isZero(0.0)) fluid_.acceleration[i] += force / inertia(i);
   });
 }
 

@@ -42,7 +42,6 @@ void GalerkinSolver<Dim, Kernel>::compute_single_gradients() {
     fluid_.source[i].grad_rho = gradients.grad_rho;
     fluid_.divergence[i] = gradients.L.trace();
     fluid_.source[i].strain = strain_rate<Dim>(gradients.L);
-    if (shifting_.is_used()) fluid_.L[i] = gradients.L;
   });
 }
 

@@ -77,7 +77,7 @@ void GalerkinSolver<Dim, Kernel>::compute_liquid_forces() {
       sweep.gather_fluid(search_.fluid_near_fluid(i));
       sweep.gather_boundary(search_.boundary_near_fluid(i), boundary_);
       fluid_.acceleration[i] = model_.gravity + sweep.force() / fluid_.mass[i];
-    mirror_guard_.accelerate(i, fluid_);
+      mirror_guard_.accelerate(i, fluid_);
       fluid_.density_rate[i] = sweep.density_rate();
     });
 }

@@ -23,14 +23,14 @@ bool goes_by_groups(const Setup& setup) {
   const Formulation& formulation = setup.formulation;
   return GalerkinSolver<Dim, Kernel>::kHasGroups && formulation.internal_force == InternalForce::galerkin &&
          formulation.viscous_force == ViscousForce::stress && formulation.mass == Mass::physical &&
-         formulation.interpolated_motion == 0.0 && !formulation.initial_parameters &&
-         !formulation.tension_control && setup.liquids.empty();
+         formulation.interpolated_motion == 0.0 && !formulation.initial_parameters && setup.liquids.empty();
 }
 
 template <int Dim, typename Kernel>
 SearchPlan search_plan(const Setup& setup) {
   const bool groups = goes_by_groups<Dim, Kernel>(setup);
-  const bool singles = !groups || setup.formulation.shifting > 0.0 || setup.liquid.surface_tension > 0.0;
+  const bool singles = !groups || setup.formulation.shifting > 0.0 || setup.formulation.tension_control ||
+                       setup.liquid.surface_tension > 0.0;
   return {.singles = singles,
           .wall_singles = singles || setup.has_viscous_stress(),
           .groups = groups,
@@ -63,7 +63,6 @@ Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos) {
   fluid.divergence.assign(n, 0.0);
   // An empty array is one that is not in use, and a tank may start without liquid.
   const std::size_t in_use = std::max<std::size_t>(n, 1);
-  if (setup.formulation.shifting > 0.0) fluid.L.assign(in_use, Mat<Dim>::Zero());
   if (setup.has_viscous_stress()) fluid.stress.assign(in_use, Mat<Dim>::Zero());
   fluid.fit.resize(n);
   fluid.source.resize(n);

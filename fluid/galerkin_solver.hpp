@@ -106,6 +106,7 @@ class GalerkinSolver final : public Solver {
   }
   void compute_single_gradients();
   void compute_single_forces();
+  void relieve_tension();
   // Of several liquids, in galerkin_liquids.hpp.
   void separate_liquids();
   void separate_at_interface(std::size_t i);

@@ -26,8 +26,8 @@ struct GradientSums {
   }
 };
 
-// Where a neighbour stands, found two neighbours ahead: all else of a pair waits for the root, and so does what
-// follows a wrong guess of whether it is close.
+// Where a neighbour stands, found two neighbours ahead: all else of a pair waits for the root, and so does
+// what follows a wrong guess of whether it is close.
 template <int Dim>
 struct Ahead {
   Vecs<Dim> x_ji;
@@ -194,7 +194,6 @@ HWY_INLINE void finish(const GradientSums<Dim>& s, double moment_floor, std::siz
     for (int b = 0; b < Dim; ++b) L[a * Dim + b] = hn::MulAdd(s.P[a], g[b], QG[b]);
   }
   store(grad_rho, out.grad_rho, turn);
-  store(L, out.L, turn);
   Vecs<Dim*(Dim + 1) / 2> strain;
   V divergence = L[0];
   SLUICE_UNROLL

@@ -97,7 +97,6 @@ void GroupStages<Dim>::compute_gradients(const BoundaryParticles<Dim>& boundary,
       take<Dim>(lanes.grad_rho, l, fluid.source[i].grad_rho);
       take<Dim>(lanes.strain, l, fluid.source[i].strain);
       fluid.divergence[i] = lanes.divergence[l];
-      if (!fluid.L.empty()) fluid.L[i] = mat_at<Dim>(lanes.L, l);
     }
   });
 }

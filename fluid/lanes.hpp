@@ -82,7 +82,6 @@ struct GradientLanes {
   Lanes m0, a, divergence;
   LaneVec<Dim> g, grad_rho;
   LaneSym<Dim> G, strain;
-  LaneMat<Dim> L;
   std::array<bool, kGroup> floored;
 };
 template <int Dim>

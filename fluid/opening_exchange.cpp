@@ -34,7 +34,6 @@ void Openings<Dim>::fill(Particles<Dim>& fluid) {
   for (std::size_t g = 0; g < gates_.size(); ++g)
     gates_[g].given.inflow ? fill_inflow(fluid, g) : fill_outflow(fluid, g);
   fluid.divergence.resize(fluid.size());
-  if (!fluid.L.empty()) fluid.L.resize(fluid.size());
 }
 
 template <int Dim>
@@ -81,7 +80,6 @@ void Openings<Dim>::exchange(Particles<Dim>& fluid) {
   for (std::size_t g = 0; g < gates_.size(); ++g)
     if (gates_[g].given.inflow) feed(fluid, g);
   fluid.divergence.resize(fluid.size());
-  if (!fluid.L.empty()) fluid.L.resize(fluid.size());
 }
 
 template <int Dim>

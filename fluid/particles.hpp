@@ -71,7 +71,6 @@ struct Particles {
   // Of the present step:
   std::vector<double> pressure;    // [Pa]
   std::vector<double> divergence;  // of the velocity [1/s]
-  std::vector<Mat<Dim>> L;         // velocity gradient, L_ab = dv_a/dx_b [1/s]; empty without shifting
   std::vector<Mat<Dim>> stress;    // sigma + p I, the viscous part [Pa]; empty without viscosity
   std::vector<Fit<Dim>> fit;
   std::vector<Source<Dim>> source;
@@ -91,8 +90,8 @@ struct Particles {
 
   // What a run changes, here as in all that has it: state_bytes.hpp.
   auto state() {
-    return std::tie(mass, node, acceleration, density_rate, id, opening, liquid, pressure, divergence, L,
-                    stress, fit, source, slope_source, point_source, own);
+    return std::tie(mass, node, acceleration, density_rate, id, opening, liquid, pressure, divergence, stress,
+                    fit, source, slope_source, point_source, own);
   }
 };
 

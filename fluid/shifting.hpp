@@ -26,9 +26,10 @@ Vec<Dim> concentration_gradient(const Model<Dim, Kernel>& model, const Vec<Dim>&
 // Particle shifting: particles drift from where they crowd to where they are sparse, with the velocity
 //   -S h^2 |d| sum_j V_j grad W(x_ij),      |d| the norm of the strain rate,
 // (S. Lind, R. Xu, P. Stansby, B. Rogers, J. Comput. Phys. 231, 2012, Fick's law; scaled with the strain
-// rate, which tears the arrangement, so that rest and rigid motion have none). Velocity and density are
-// carried along with their gradients. Fluid that has a surface particle in its support is not shifted: the
-// free surface never moves by it. Costs one more sweep.
+// rate, which tears the arrangement, so that rest and rigid motion have none). Density is carried along with
+// its gradient; particles keep their velocity, and so the fluid its momentum. Fluid that has a surface particle
+// in its support drifts along the surface only, which does not move by it; spray not at all. Costs one more
+// sweep.
 template <int Dim>
 class Shifting {
  public:
@@ -59,13 +60,15 @@ void Shifting<Dim>::compute(const Model<Dim, Kernel>& model, const Particles<Dim
                             const FreeSurface<Dim>& surface, const Parallel& parallel) {
   velocity_.assign(fluid.size(), Vec<Dim>::Zero());
   parallel.for_each(fluid.size(), [&](std::size_t i) {
-    if (fluid.is_buffer(i) || !surface.is_deep(i, search)) return;
+    if (fluid.is_buffer(i) || fluid.fit[i].floored) return;
     const auto neighbors = search.fluid_near_fluid(i);
     const Vec<Dim>& x = fluid.node[i].x;
     const Vec<Dim> crowding =
         concentration_gradient<Dim>(model, x, neighbors, fluid.node) +
         concentration_gradient<Dim>(model, x, search.boundary_near_fluid(i), boundary.node());
-    velocity_[i] = -strength_ * model.h * model.h * fluid.source[i].strain.norm() * crowding;
+    const Vec<Dim> normal = surface.normal(i, fluid, search);
+    velocity_[i] = -strength_ * model.h * model.h * fluid.source[i].strain.norm() *
+                   (crowding - crowding.dot(normal) * normal);
   });
 }
 
@@ -74,7 +77,6 @@ void Shifting<Dim>::apply(double dt, Particles<Dim>& fluid, const Parallel& para
   parallel.for_each(velocity_.size(), [&](std::size_t i) {
     const Vec<Dim> way = dt * velocity_[i];
     fluid.node[i].x += way;
-    fluid.node[i].v += fluid.L[i] * way;
     fluid.node[i].rho += fluid.source[i].grad_rho.dot(way);
   });
 }

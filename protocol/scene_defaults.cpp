@@ -125,7 +125,24 @@ bool has_fit(const Formulation& formulation) {
   return formulation.approximation() == MLS && formulation.quadrature() == NODAL;
 }
 
-void fill_formulation(Formulation& formulation, unsigned dimension, bool shifted, bool spread) {
+// Liquid that flies or turns with nothing around it: only its own motion can put it under tension.
+bool is_in_free_flight(const Scene& scene) {
+  return norm(scene.gravity()) == 0 && scene.body().empty() && scene.opening().empty() &&
+         scene.domain().open_size() == 2 * static_cast<int>(scene.dimension()) &&
+         scene.liquid().surface_tension() == 0;
+}
+
+void fill_shifting(Formulation& formulation, const Scene& scene) {
+  const bool one_liquid = scene.other_liquid().empty();
+  const bool flies = one_liquid && is_in_free_flight(scene) && has_fit(formulation);
+  const bool is_periodic = one_liquid && scene.domain().periodic_size() > 0;
+  if (!formulation.has_tension_control()) formulation.set_tension_control(flies);
+  if (!formulation.has_shifting()) formulation.set_shifting(flies ? 16 : is_periodic ? 6 : 0);
+  const bool has_weight = one_liquid && norm(scene.gravity()) > 0;
+  if (!formulation.has_spreading()) formulation.set_spreading(has_weight && has_fit(formulation) ? 0.02 : 0);
+}
+
+void fill_formulation(Formulation& formulation, unsigned dimension) {
   if (!formulation.has_smoothing()) formulation.set_smoothing(dimension == 2 ? 1.45 : 1.49);
   if (!formulation.has_density_diffusion()) formulation.set_density_diffusion(0.1);
   if (!formulation.has_artificial_viscosity()) formulation.set_artificial_viscosity(0.02);
@@ -141,9 +158,6 @@ void fill_formulation(Formulation& formulation, unsigned dimension, bool shifted
   if (formulation.mass() == MASS_UNSPECIFIED) formulation.set_mass(PHYSICAL);
   if (!formulation.has_interpolated_motion()) formulation.set_interpolated_motion(0);
   if (!formulation.has_initial_parameters()) formulation.set_initial_parameters(false);
-  if (!formulation.has_tension_control()) formulation.set_tension_control(false);
-  if (!formulation.has_shifting()) formulation.set_shifting(shifted ? 6 : 0);
-  if (!formulation.has_spreading()) formulation.set_spreading(spread && has_fit(formulation) ? 0.02 : 0);
 }
 
 void fill_output(Output& output, double duration, bool several_liquids) {
@@ -188,8 +202,8 @@ Scene with_defaults(const Scene& scene) {
   for (auto& body : *full.mutable_body()) fill_body(body, dimension);
   const bool several = full.other_liquid_size() > 0;
   fill_output(*full.mutable_output(), full.duration(), several);
-  fill_formulation(*full.mutable_formulation(), full.dimension(),
-                   full.domain().periodic_size() > 0 && !several, norm(full.gravity()) > 0 && !several);
+  fill_formulation(*full.mutable_formulation(), full.dimension());
+  fill_shifting(*full.mutable_formulation(), full);
   fill_coupling(*full.mutable_coupling());
   return full;
 }

@@ -29,6 +29,22 @@ TEST(Defaults, AreThoseOfTheSceneDescription) {
   EXPECT_TRUE(scene.body(0).orientation().empty());  // an angle turns a body in two dimensions
 }
 
+// Liquid with nothing around it is kept from tearing under its own tension.
+TEST(Defaults, ShiftingFollowsWhatHoldsTheLiquid) {
+  const std::vector<std::string> flight{"gravity=[0, 0]", "domain.open=[X_MIN, X_MAX, Y_MIN, Y_MAX]",
+                                        "body=[]"};
+  EXPECT_EQ(filled(flight).formulation().shifting(), 16);
+  EXPECT_TRUE(filled(flight).formulation().tension_control());
+  std::vector<std::string> held = flight;
+  held[1] = "domain.open=[X_MIN, X_MAX, Y_MAX]";
+  EXPECT_EQ(filled(held).formulation().shifting(), 0);
+  EXPECT_FALSE(filled(held).formulation().tension_control());
+  std::vector<std::string> sph = flight;
+  sph.push_back("formulation.approximation=SPH");
+  EXPECT_EQ(filled(sph).formulation().shifting(), 0);
+  EXPECT_FALSE(filled(sph).formulation().tension_control());
+}
+
 // A recorded scene has its defaults filled in and is checked again when it is run again.
 TEST(Defaults, PassTheChecks) {
   EXPECT_TRUE(check_fields(filled()).empty());
