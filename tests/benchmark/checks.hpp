@@ -28,6 +28,8 @@ const std::vector<StabilityCheck>& all_checks();
 
 // Random violent scenes at the defaults; a row a scene that fails.
 StabilityTable random_scenes(const StabilityOptions& options);
+// Impacts and splashes in the plane and in space, over the floor of the moments' eigenvalues.
+StabilityTable violent(const StabilityOptions& options);
 // Growth of a velocity that alternates from particle to particle, on a lattice under uniform pressure.
 StabilityTable checkerboard(const StabilityOptions& options);
 // Growth of waves of displacement of that lattice, over the smoothing length.

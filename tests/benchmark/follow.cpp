@@ -49,6 +49,7 @@ class Ledger {
     const double energy = d.kinetic + d.potential + d.elastic - d.boundary_work;
     least_ = std::min(least_, energy);
     scale_ = std::max(scale_, d.kinetic + d.potential);
+    compression_ = std::max(compression_, d.max_compression);
     if (energy - least_ <= rise_) return;
     rise_ = energy - least_;
     rise_at_ = run_.time();
@@ -59,12 +60,13 @@ class Ledger {
     faults.energy_rise = rise_ / scale_;
     faults.rise_at = rise_at_;
     faults.rise_where = where_;
+    faults.compression = compression_;
   }
 
  private:
   const validation::SceneRun& run_;
   double least_ = std::numeric_limits<double>::infinity(), scale_ = 0;  // [J], per metre of depth in 2D
-  double rise_ = 0, rise_at_ = 0;
+  double rise_ = 0, rise_at_ = 0, compression_ = 0;
   std::string where_;
 };
 

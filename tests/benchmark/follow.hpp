@@ -18,6 +18,7 @@ struct Faults {
   double energy_rise = 0;
   double rise_at = 0;      // [s]
   std::string rise_where;  // the particle under the highest pressure then: its place and what it is next to
+  double compression = 0;  // largest |rho/rho0 - 1|
   std::uint64_t particles = 0, steps = 0;
   double end = 0;  // time reached [s]
 

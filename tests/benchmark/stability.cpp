@@ -13,9 +13,9 @@ namespace sluice::benchmark {
 
 const std::vector<StabilityCheck>& all_checks() {
   static const std::vector<StabilityCheck> checks{
-      {"random_scenes", random_scenes},     {"checkerboard", checkerboard},
-      {"lattice_waves", lattice_waves},     {"kernel_sums", kernel_sums},
-      {"largest_courant", largest_courant}, {"still_tank", still_tank}};
+      {"random_scenes", random_scenes}, {"violent", violent},         {"checkerboard", checkerboard},
+      {"lattice_waves", lattice_waves}, {"kernel_sums", kernel_sums}, {"largest_courant", largest_courant},
+      {"still_tank", still_tank}};
   return checks;
 }
 
