@@ -12,8 +12,8 @@ template <int Dim>
 BoundaryParticles<Dim>::BoundaryParticles(const Setup& setup, std::span<const Boundary> bodies) {
   const double cell = group_edge<Dim>(setup.spacing);
   const Boundary walls = in_rows<Dim>(setup.walls, cell);
-  append(walls, setup.liquid.density);
-  for (const Boundary& body : bodies) append(in_rows<Dim>(body, cell), setup.liquid.density);
+  append(walls, setup);
+  for (const Boundary& body : bodies) append(in_rows<Dim>(body, cell), setup);
   first_.push_back(node_.size());
   velocity_.assign(size(), Vec<Dim>::Zero());
   for (std::size_t w = 0; w < walls.velocity.size(); ++w) velocity_[w] = narrow<Dim>(walls.velocity[w]);
@@ -27,9 +27,10 @@ BoundaryParticles<Dim>::BoundaryParticles(const Setup& setup, std::span<const Bo
 }
 
 template <int Dim>
-void BoundaryParticles<Dim>::append(const Boundary& boundary, double rest_density) {
+void BoundaryParticles<Dim>::append(const Boundary& boundary, const Setup& setup) {
   const auto body = static_cast<std::int32_t>(plate_of_body_.size());
   const bool is_plate = !boundary.faces.empty();
+  const bool has_volume = setup.formulation.boundary == BoundaryTreatment::layers;
   plate_of_body_.push_back(is_plate ? static_cast<std::int32_t>(plates_.size()) : -1);
   first_.push_back(node_.size());
   no_slip_.push_back(boundary.no_slip);
@@ -37,10 +38,11 @@ void BoundaryParticles<Dim>::append(const Boundary& boundary, double rest_densit
   Plate<Dim> plate{static_cast<std::size_t>(body), {}};
   for (std::size_t k = 0; k < boundary.position.size(); ++k) {
     const Vec<Dim> x = narrow<Dim>(boundary.position[k]);
-    node_.push_back({x, Vec<Dim>::Zero(), boundary.volume[k], rest_density});
+    const double volume = has_volume ? boundary.volume[k] : 0.0;
+    node_.push_back({x, Vec<Dim>::Zero(), volume, setup.liquid.density});
     local_.push_back(x);
     append_surface(boundary.to_surface[k], body == 0);
-    sampled_volume_.push_back(boundary.volume[k]);
+    sampled_volume_.push_back(volume);
     body_.push_back(body);
     face_.push_back(is_plate ? boundary.face[k] : -1);
   }

@@ -66,7 +66,8 @@ class BoundaryParticles {
   [[nodiscard]] const std::vector<Plate<Dim>>& plates() const { return plates_; }
   [[nodiscard]] std::size_t body_count() const { return plate_of_body_.size(); }
 
-  // Volume as sampled [m^Dim]; node().volume follows the compression of the fluid near it.
+  // Volume as sampled [m^Dim], 0 with boundary forces; node().volume follows the compression of the fluid
+  // near it.
   [[nodiscard]] double sampled_volume(std::size_t w) const { return sampled_volume_[w]; }
 
   // Extrapolated from the fluid every step.
@@ -82,7 +83,7 @@ class BoundaryParticles {
   }
 
  private:
-  void append(const Boundary& boundary, double rest_density);
+  void append(const Boundary& boundary, const Setup& setup);
   void append_surface(const Eigen::Vector3d& to_surface, bool is_wall);
   void move_body(std::size_t body, const Kinematics& kinematics);
   void move_plate(const Kinematics& kinematics, Plate<Dim>& plate);

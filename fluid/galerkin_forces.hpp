@@ -93,6 +93,7 @@ void GalerkinSolver<Dim, Kernel>::compute_forces() {
   if (!by_groups_) compute_single_forces();
   if (tension_control_) relieve_tension();
   if (surface_tension_.is_used()) surface_tension_.accelerate(parallel_, fluid_);
+  if (boundary_forces_.is_used()) boundary_forces_.accelerate(search_, boundary_, parallel_, fluid_);
 }
 
 template <int Dim, typename Kernel>

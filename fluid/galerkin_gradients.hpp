@@ -20,8 +20,8 @@ void GalerkinSolver<Dim, Kernel>::compute_gradients() {
     if (by_groups_) group_stages().compute_gradients(boundary_, fluid_);
   if (!by_groups_) compute_single_gradients();
   if (fluid_.has_several_liquids()) separate_liquids();
-  // Corrected SPH threw a single particle of a splash out by it.
-  if (Operator<Dim, Kernel>::kIsDefault && !bodies_.empty()) find_films();
+  // Corrected SPH threw a single particle of a splash out by it; boundary forces hold films off.
+  if (Operator<Dim, Kernel>::kIsDefault && !bodies_.empty() && !boundary_forces_.is_used()) find_films();
   if (!boundary_.sticks()) return;
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
     fluid_.source[i].strain +=

@@ -30,7 +30,8 @@ template <int Dim, typename Kernel>
 SearchPlan search_plan(const Setup& setup) {
   const bool groups = goes_by_groups<Dim, Kernel>(setup);
   const bool singles = !groups || setup.formulation.shifting > 0.0 || setup.formulation.tension_control ||
-                       setup.liquid.surface_tension > 0.0;
+                       setup.liquid.surface_tension > 0.0 ||
+                       setup.formulation.boundary == BoundaryTreatment::forces;
   return {.singles = singles,
           .wall_singles = singles || setup.has_viscous_stress(),
           .groups = groups,
@@ -99,6 +100,7 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       shifting_(setup.formulation.shifting),
       crowding_(setup.formulation.spreading, setup.gravity.norm(), model_),
       surface_tension_(setup, model_.kernel.support()),
+      boundary_forces_(setup),
       bodies_(setup.bodies.size()),
       lagged_(stages::make_lagged(setup, model_)),
       wrench_(setup.bodies.size() + 1),

@@ -5,6 +5,7 @@
 #include "fluid/body_images.hpp"
 #include "fluid/body_step.hpp"
 #include "fluid/boundary.hpp"
+#include "fluid/boundary_forces.hpp"
 #include "fluid/checkpoint.hpp"
 #include "fluid/crowding.hpp"
 #include "fluid/force_sweep.hpp"
@@ -149,6 +150,7 @@ class GalerkinSolver final : public Solver {
   Shifting<Dim> shifting_;
   Crowding<Dim> crowding_;
   SurfaceTension<Dim> surface_tension_;
+  BoundaryForces<Dim> boundary_forces_;
   std::vector<Kinematics> bodies_;
   std::vector<LaggedAcceleration> lagged_;  // per body
   std::vector<Reaction<Dim>> reaction_;     // on the active boundary particles, by particle

@@ -43,6 +43,7 @@ void GalerkinSolver<Dim, Kernel>::step(double dt, std::span<const Kinematics> bo
   assert(dt > 0.0);
   const Stopwatch watch(times_.steps);
   last_wrench_ = wrench_;
+  boundary_forces_.begin_step(dt);
   spread_crowds(dt);
   switch (integrator_) {
     case Integrator::kick_drift_kick:

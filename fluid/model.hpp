@@ -28,7 +28,7 @@ struct Model {
         moment_floor(setup.formulation.moment_floor * lattice_moment),
         slope_floor(setup.formulation.moment_floor * lattice_slope),
         tiny_r2(1e-4 * h * h),
-        guard_range(0.75 * setup.spacing),
+        guard_range(setup.formulation.boundary == BoundaryTreatment::layers ? 0.75 * setup.spacing : 0.0),
         guard_stiffness(setup.liquid.density * setup.fluid.volume * setup.liquid.sound_speed *
                         setup.liquid.sound_speed / (setup.spacing * setup.spacing)),
         first_volume(setup.fluid.volume),
@@ -51,7 +51,7 @@ struct Model {
   double moment_floor;          // [m^2]
   double slope_floor;           // [-]
   double tiny_r2;               // (h/100)^2 [m^2], keeps coincident particles from a division by zero
-  double guard_range;           // of the penetration guard [m]; see force_sweep.hpp
+  double guard_range;           // of the penetration guard [m], 0 with boundary forces; see force_sweep.hpp
   double guard_stiffness;       // m c0^2 / dx^2 [N/m]
   double first_volume;          // of every fluid particle [m^Dim]
   double boundary_G;            // G of boundary particles, the lattice's, times identity [1/m^2]

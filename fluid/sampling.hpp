@@ -34,6 +34,13 @@ struct Tank {
 // Wall layers outside the tank, `support` [m] deep; they go on beyond periodic and mirrored sides.
 Boundary sample_walls(const Tank& tank, double spacing, double support, int dimension);
 
+// For boundary forces (boundary_forces.hpp): particles half their edge behind the surface, whose nearest
+// points of the surface are as far apart as CF section 6 has it. In an edge of the tank there is none.
+double surface_spacing(double spacing);
+// Walls go on `beyond` [m] past periodic sides.
+Boundary sample_wall_surface(const Tank& tank, double spacing, double beyond, int dimension);
+Boundary sample_body_surface(const Shape& shape, double spacing, int dimension);
+
 // Layers inward from the shape's surface, `support` [m] deep, in the body's frame. A shape thinner than two
 // supports gets layers of its own for every face (thin-plate rule) if it is a box or a convex polygon.
 Boundary sample_body(const Shape& shape, double spacing, double support, int dimension);

@@ -42,6 +42,10 @@ enum class Integrator { kick_drift_kick, leap_frog, predictor_corrector, multist
 // Where the stress is taken: at the particles, CF (43), or at points around them, CF (54).
 enum class Quadrature { nodal, stress_points };
 
+// What walls and bodies are to the fluid: layers of particles that fill its support, or one of particles on
+// the surface that push it, CF (90)-(98) (boundary_forces.hpp).
+enum class BoundaryTreatment { layers, forces };
+
 // What the force on a particle is divided by: its mass, CF (58), or the lumped mass of the weak form, CF
 // (56).
 enum class Mass { physical, lumped };
@@ -58,6 +62,9 @@ struct Formulation {
   double multistep_beta1 = 1, multistep_beta2 = 1;  // of PC (26)-(27)
   Quadrature quadrature = Quadrature::nodal;
   Mass mass = Mass::physical;
+  BoundaryTreatment boundary = BoundaryTreatment::layers;
+  double boundary_pressure = 0;            // sets A of CF (113) [Pa]; 0: rho0/2 (c0/10)^2
+  bool force_on_receding = false;          // boundary forces without f1 of CF (112)
   double interpolated_motion = 0;          // share of v-hat CF (75) in the velocity that moves the particles
   bool initial_parameters = false;         // the velocities given are those of the fluid, CF (99)
   double smoothing = stable_smoothing(2);  // h/dx

@@ -88,6 +88,30 @@ void check_liquids(const Setup& setup) {
           "openings");
 }
 
+// A surface that pushes has no volume to hold an image, a plate's other side or shear in.
+void check_boundary_forces(const Setup& setup) {
+  const Formulation& f = setup.formulation;
+  require(f.boundary_pressure >= 0, "boundary_pressure [Pa]", f.boundary_pressure, "it must not be negative");
+  if (f.boundary == BoundaryTreatment::layers) return;
+  const bool stepwise = f.integrator == Integrator::kick_drift_kick || f.integrator == Integrator::leap_frog;
+  require(f.kernel == KernelKind::wendland && f.approximation == Approximation::mls &&
+              f.weights == Weights::kernel_and_volume && f.internal_force == InternalForce::galerkin &&
+              f.viscous_force == ViscousForce::stress && stepwise && f.quadrature == Quadrature::nodal &&
+              f.mass == Mass::physical && !f.initial_parameters && !f.tension_control,
+          "boundary", static_cast<double>(f.boundary),
+          "forces, 1, go with the default formulation, the leap-frog and interpolated motion");
+  require(setup.liquids.empty() && setup.openings.empty() && setup.liquid.surface_tension == 0, "boundary",
+          static_cast<double>(f.boundary),
+          "forces, 1, are built for one liquid without surface tension and openings");
+  require(std::none_of(setup.mirrors.at.begin(), setup.mirrors.at.end(), [](bool mirror) { return mirror; }),
+          "boundary", static_cast<double>(f.boundary), "forces, 1, need walls in the place of mirrors");
+  const auto is_fit = [&setup](const Boundary& boundary) {
+    return boundary.faces.empty() && !(boundary.no_slip && setup.has_viscous_stress());
+  };
+  require(is_fit(setup.walls) && std::all_of(setup.bodies.begin(), setup.bodies.end(), is_fit), "boundary",
+          static_cast<double>(f.boundary), "forces, 1, are built for thick bodies along which liquid slides");
+}
+
 void check(const Setup& setup) {
   require(setup.dimension == 2 || setup.dimension == 3, "dimension", setup.dimension, "it must be 2 or 3");
   require(setup.spacing > 0, "spacing [m]", setup.spacing, "it must be positive");
@@ -117,6 +141,7 @@ void check(const Setup& setup) {
               (mls && wendland && f.internal_force == InternalForce::galerkin && !f.tension_control),
           "quadrature", static_cast<double>(f.quadrature),
           "stress points, 1, go with moving least squares, the Wendland kernel and the Galerkin force");
+  check_boundary_forces(setup);
   const bool sum_one =
       f.approximation != Approximation::sph && f.approximation != Approximation::corrected_sph;
   const char* fitted = "it needs shape functions whose sum is one: moving least squares, 0, 1 or Shepard, 2";

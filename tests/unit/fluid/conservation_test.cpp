@@ -159,6 +159,10 @@ INSTANTIATE_TEST_SUITE_P(
                true},
         Choice{"ViscousStressPoints", [](Formulation& f) { f.quadrature = Quadrature::stress_points; }, 20,
                true, true},
+        Choice{"BoundaryForces", [](Formulation& f) { f.boundary = BoundaryTreatment::forces; }, 0, true,
+               true},
+        Choice{"ViscousBoundaryForces", [](Formulation& f) { f.boundary = BoundaryTreatment::forces; }, 20,
+               true, true},
         Choice{"Isobaric",
                [](Formulation& f) {
                  f.approximation = Approximation::sph;

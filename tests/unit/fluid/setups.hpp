@@ -40,11 +40,14 @@ struct Scene {
   void add_tank(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
     std::array<bool, 6> closed{true, true, true, true, true, true};
     closed[2 * static_cast<std::size_t>(setup.dimension) - 1] = false;
-    setup.walls = sample_walls({min, max, closed}, setup.spacing, support(), setup.dimension);
+    const Tank tank{min, max, closed};
+    setup.walls = has_forces() ? sample_wall_surface(tank, setup.spacing, support() / 2, setup.dimension)
+                               : sample_walls(tank, setup.spacing, support(), setup.dimension);
   }
 
   void add_body(const Shape& shape) {
-    setup.bodies.push_back(sample_body(shape, setup.spacing, support(), setup.dimension));
+    setup.bodies.push_back(has_forces() ? sample_body_surface(shape, setup.spacing, setup.dimension)
+                                        : sample_body(shape, setup.spacing, support(), setup.dimension));
   }
 
   void add_particle(const Eigen::Vector3d& x, const Eigen::Vector3d& v, double pressure) {
@@ -64,6 +67,7 @@ struct Scene {
   Setup setup;
 
  private:
+  [[nodiscard]] bool has_forces() const { return setup.formulation.boundary == BoundaryTreatment::forces; }
   [[nodiscard]] std::vector<Eigen::Vector3d> lattice(const Eigen::Vector3d& min,
                                                      const Eigen::Vector3d& max) const {
     return fill(BoxShape{(max - min) / 2}, (min + max) / 2, setup.spacing, setup.dimension);

@@ -90,6 +90,39 @@ INSTANTIATE_TEST_SUITE_P(
                   s.formulation.quadrature = Quadrature::stress_points;
                 },
                 "quadrature", "1"},
+        Refusal{"BoundaryPressure", [](Setup& s) { s.formulation.boundary_pressure = -3; },
+                "boundary_pressure [Pa]", "-3"},
+        Refusal{"ForcesOfSph",
+                [](Setup& s) {
+                  s.formulation.boundary = BoundaryTreatment::forces;
+                  s.formulation.approximation = Approximation::sph;
+                },
+                "boundary is 1", "default formulation"},
+        Refusal{"ForcesWithTension",
+                [](Setup& s) {
+                  s.formulation.boundary = BoundaryTreatment::forces;
+                  s.liquid.surface_tension = 0.07;
+                },
+                "boundary is 1", "one liquid without surface tension"},
+        Refusal{"ForcesAtMirrors",
+                [](Setup& s) {
+                  s.formulation.boundary = BoundaryTreatment::forces;
+                  s.mirrors.at[0] = true;
+                },
+                "boundary is 1", "mirrors"},
+        Refusal{"ForcesThatStick",
+                [](Setup& s) {
+                  s.formulation.boundary = BoundaryTreatment::forces;
+                  s.liquid.viscosity = 1;
+                  s.walls.no_slip = true;
+                },
+                "boundary is 1", "along which liquid slides"},
+        Refusal{"ForcesOfAPlate",
+                [](Setup& s) {
+                  s.formulation.boundary = BoundaryTreatment::forces;
+                  s.bodies.push_back(sample_body(BoxShape{{0.05, 0.3, 0}}, s.spacing, 0.29, 2));
+                },
+                "boundary is 1", "thick bodies"},
         Refusal{"NoFluid",
                 [](Setup& s) {
                   s.fluid = FluidParticles{{}, {}, {}, 0.01};
