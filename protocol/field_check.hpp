@@ -43,6 +43,8 @@ void check_numbers(const google::protobuf::Message& message, const std::string& 
 void check_polygon(const Polygon& polygon, const std::string& field, FieldCheck& check);
 void check_output(const Scene& scene, FieldCheck& check);
 void check_formulation(const Scene& scene, FieldCheck& check);
+// What boundary FORCES do not go with.
+void check_boundary_forces(const Scene& scene, FieldCheck& check);
 void check_coupling(const Scene& scene, FieldCheck& check);
 void check_domain(const Scene& scene, FieldCheck& check);
 // Whether it is one, of the scene's dimension.

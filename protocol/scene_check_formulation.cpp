@@ -44,6 +44,9 @@ void check_ranges(const Formulation& f, FieldCheck& check) {
   within(f.has_multistep_beta1(), f.multistep_beta1(), 0, 2, "multistep_beta1");
   within(f.has_multistep_beta2(), f.multistep_beta2(), 0, 2, "multistep_beta2");
   within(f.has_interpolated_motion(), f.interpolated_motion(), 0, 1, "interpolated_motion");
+  if (f.has_boundary_pressure())
+    check.positive(f.boundary_pressure(), "formulation.boundary_pressure", "Pa",
+                   "leave it out for the default");
 }
 
 bool is_mls(const Formulation& f) {
@@ -67,7 +70,8 @@ void check_combinations(const Scene& scene, FieldCheck& check) {
         "KERNEL_ALONE belongs to the fit of MLS, MLS_FULL_DERIVATIVE or SHEPARD; SPH has no fit");
   needs(f.tension_control(), is_mls(f), "tension_control",
         "takes the pressure relative to the particle's own in the gradients of MLS; leave approximation out");
-  needs(f.spreading() > 0, is_mls(f) && f.quadrature() != STRESS_POINTS, "spreading",
+  const bool nodal = f.quadrature() == QUADRATURE_UNSPECIFIED || f.quadrature() == NODAL;
+  needs(f.spreading() > 0, is_mls(f) && nodal, "spreading",
         "measures crowding with the fit of MLS at particles; leave approximation and quadrature out");
   const bool weightless =
       !scene.gravity().empty() &&
@@ -78,17 +82,18 @@ void check_combinations(const Scene& scene, FieldCheck& check) {
   needs(f.internal_force() == ISOBARIC, f.approximation() == SPH, "internal_force",
         "ISOBARIC is a sum over kernel gradients; set approximation to SPH");
   const bool galerkin = f.internal_force() == INTERNAL_FORCE_UNSPECIFIED || f.internal_force() == GALERKIN;
-  needs(f.quadrature() == STRESS_POINTS, is_mls(f) && wendland && galerkin, "quadrature",
-        "STRESS_POINTS is built for MLS with the kernel WENDLAND and the internal force GALERKIN; leave "
+  needs(!nodal, is_mls(f) && wendland && galerkin, "quadrature",
+        "other ones than NODAL are built for MLS with the kernel WENDLAND and the internal force GALERKIN; "
+        "leave "
         "approximation, kernel and internal_force out");
-  needs(f.quadrature() == STRESS_POINTS, !f.tension_control(), "quadrature",
-        "STRESS_POINTS has its pressures off the particles, which tension_control does not know; leave one "
-        "out");
+  needs(!nodal, !f.tension_control(), "quadrature",
+        "other ones than NODAL have their pressures off the particles, which tension_control does not know; "
+        "leave one out");
   needs(f.has_isobaric_scale(), f.internal_force() == ISOBARIC, "isobaric_scale",
         "belongs to internal_force ISOBARIC; set that or leave this out");
   const bool unweighted = f.weights() == WEIGHTS_UNSPECIFIED || f.weights() == KERNEL_AND_VOLUME;
   if (scene.liquid().surface_tension() > 0 &&
-      !(is_mls(f) && galerkin && unweighted && f.quadrature() != STRESS_POINTS && f.mass() != LUMPED))
+      !(is_mls(f) && galerkin && unweighted && nodal && f.mass() != LUMPED))
     check.report("liquid.surface_tension",
                  "is a stress in the Galerkin force of MLS at particles of their own mass; leave "
                  "approximation, internal_force, weights, quadrature and mass out");
@@ -107,6 +112,11 @@ void check_combinations(const Scene& scene, FieldCheck& check) {
         "MLS, MLS_FULL_DERIVATIVE or SHEPARD");
   needs(f.initial_parameters(), f.interpolated_motion() > 0, "initial_parameters",
         "makes sense where particles move with the interpolated velocity; set interpolated_motion");
+  const bool forces = f.boundary() == FORCES;
+  needs(f.has_boundary_pressure(), forces, "boundary_pressure",
+        "belongs to boundary FORCES; set that or leave this out");
+  needs(f.force_on_receding(), forces, "force_on_receding",
+        "belongs to boundary FORCES; set that or leave this out");
 }
 
 }  // namespace
@@ -115,6 +125,7 @@ void check_formulation(const Scene& scene, FieldCheck& check) {
   check_choices(scene.formulation(), check);
   check_ranges(scene.formulation(), check);
   check_combinations(scene, check);
+  if (scene.formulation().boundary() == FORCES) check_boundary_forces(scene, check);
 }
 
 }  // namespace sluice::protocol

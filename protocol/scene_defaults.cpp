@@ -156,6 +156,7 @@ void fill_formulation(Formulation& formulation, unsigned dimension) {
   if (formulation.integrator() == INTEGRATOR_UNSPECIFIED) formulation.set_integrator(KICK_DRIFT_KICK);
   if (formulation.quadrature() == QUADRATURE_UNSPECIFIED) formulation.set_quadrature(NODAL);
   if (formulation.mass() == MASS_UNSPECIFIED) formulation.set_mass(PHYSICAL);
+  if (formulation.boundary() == BOUNDARY_TREATMENT_UNSPECIFIED) formulation.set_boundary(LAYERS);
   if (!formulation.has_interpolated_motion()) formulation.set_interpolated_motion(0);
   if (!formulation.has_initial_parameters()) formulation.set_initial_parameters(false);
 }

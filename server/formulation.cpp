@@ -82,6 +82,9 @@ fluid::Formulation to_formulation(const Formulation& formulation) {
   if (formulation.mass() == LUMPED) result.mass = fluid::Mass::lumped;
   if (formulation.has_interpolated_motion()) result.interpolated_motion = formulation.interpolated_motion();
   if (formulation.has_initial_parameters()) result.initial_parameters = formulation.initial_parameters();
+  if (formulation.boundary() == FORCES) result.boundary = fluid::BoundaryTreatment::forces;
+  if (formulation.has_boundary_pressure()) result.boundary_pressure = formulation.boundary_pressure();
+  if (formulation.has_force_on_receding()) result.force_on_receding = formulation.force_on_receding();
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include "protocol/build_id.hpp"
 #include "protocol/liquids.hpp"
 #include "protocol/scene_check.hpp"
+#include "server/boundary.hpp"
 #include "server/build_info.hpp"
 #include "server/formulation.hpp"
 #include "server/geometry.hpp"
@@ -40,14 +41,15 @@ fluid::Period to_period(const fluid::Tank& tank) {
 
 // Sides that are mirrors, since that costs less and leaves no trace at the waterline: closed, at rest, not
 // sticking and along gravity. The formulations that carry vectors in arrays of their own have no images of
-// them.
+// them; boundary forces are instead of mirrors too.
 std::array<bool, 6> mirrored_sides(const Scene& scene, const fluid::Tank& tank, double support) {
   std::array<bool, 6> mirrored{};
   const Formulation& formulation = scene.formulation();
   const std::vector<protocol::LiquidProperties> liquids = protocol::liquids(scene);
   const bool sticks = tank.no_slip && std::any_of(liquids.begin(), liquids.end(),
                                                   [](const auto& liquid) { return liquid.viscosity > 0.0; });
-  const bool has_images = formulation.quadrature() == NODAL && formulation.integrator() == KICK_DRIFT_KICK;
+  const bool has_images = formulation.quadrature() == NODAL && formulation.integrator() == KICK_DRIFT_KICK &&
+                          formulation.boundary() != FORCES;
   if (sticks || !has_images) return mirrored;
   for (std::size_t side = 0; side < 2 * scene.dimension(); ++side) {
     const auto a = static_cast<Eigen::Index>(side / 2);
@@ -93,16 +95,14 @@ fluid::Setup to_setup(const Scene& scene, int threads) {
   setup.threads = threads;
   setup.limit_step_by_bodies = scene.coupling().shorten_steps();
 
-  const double support = 2 * setup.formulation.smoothing * setup.spacing;  // of the kernel, 2 h
   fluid::Tank tank = to_tank(scene.domain());
   tank.openings = setup.openings = to_openings(scene);
-  tank.mirrored = mirrored_sides(scene, tank, support);
+  tank.mirrored = mirrored_sides(scene, tank, kernel_support(setup));
   setup.period = to_period(tank);
   setup.mirrors = {tank.min, tank.max, tank.mirrored};
-  setup.walls = fluid::sample_walls(tank, setup.spacing, support, setup.dimension);
+  setup.walls = wall_boundary(tank, setup);
   for (const Body& body : scene.body()) {
-    setup.bodies.push_back(
-        fluid::sample_body(to_shape(body, setup.dimension), setup.spacing, support, setup.dimension));
+    setup.bodies.push_back(body_boundary(body, setup));
     setup.bodies.back().no_slip = body.surface() == NO_SLIP;
     if (protocol::is_ever_free(body)) setup.bodies.back().free_mass = mass(body, setup.dimension);
   }

@@ -39,7 +39,15 @@ void check_thickness(const BodyLayout& body, const Layout& layout, Findings& fin
         fmt::format("body '{}' is {:.4g} m thick, thinner than one particle spacing of {:g} m; make "
                     "it thicker or the spacing smaller",
                     body.name, width, layout.spacing));
-  else if (!body.has_plate_rule)
+  else if (layout.scene.formulation().boundary() == FORCES) {
+    if (width < support)
+      findings.error(
+          body.field,
+          fmt::format("body '{}' is {:.4g} m thick, thinner than the support of {:.4g} m, and "
+                      "formulation.boundary FORCES does not keep its sides apart; make it thicker, "
+                      "the spacing at most {:.3g} m, or leave boundary out",
+                      body.name, width, support, layout.spacing * width / support));
+  } else if (!body.has_plate_rule)
     check_without_rule(body, width, layout, findings);
   else if (width < 2 * support)
     findings.warning(

@@ -99,8 +99,10 @@ double body_volume_in_particles(const BodyLayout& body, const Layout& layout, do
 
 Estimate estimate(const Layout& layout) {
   const auto& formulation = layout.scene.formulation();
-  const double h = formulation.smoothing() * layout.spacing,
-               layers = std::ceil(2 * formulation.smoothing() - 1e-9);
+  // One layer of forces, a third of a spacing apart, has as many particles as so many layers.
+  const double layers = formulation.boundary() == FORCES ? std::pow(3, layout.dimension - 1)
+                                                         : std::ceil(2 * formulation.smoothing() - 1e-9);
+  const double h = formulation.smoothing() * layout.spacing;
   const double particle = std::pow(layout.spacing, layout.dimension);
 
   double boundary = wall_particles(layout, layers);

@@ -197,6 +197,17 @@ TEST_F(PreflightTest, thin_bodies_without_the_plate_rule) {
               ElementsAre(problem("body[0]", "0.04 m thick")));
 }
 
+// The support is 0.029 m.
+TEST_F(PreflightTest, thin_bodies_of_boundary_forces) {
+  const auto plate = [](const std::string& width) {
+    return "formulation { boundary: FORCES } body { name: \"plate\" box { size: [" + width +
+           ", 0.3] } density: 500 position: [0.7, 0.5] }";
+  };
+  EXPECT_THAT(check(plate("0.03")).errors, IsEmpty());
+  EXPECT_THAT(check(plate("0.03")).warnings, IsEmpty());
+  EXPECT_THAT(check(plate("0.028")).errors, ElementsAre(problem("body[0]", "does not keep its sides apart")));
+}
+
 TEST_F(PreflightTest, thin_bodies) {
   const auto plate = [](const std::string& width) {
     return "body { name: \"plate\" box { size: [" + width + ", 0.3] } density: 500 position: [0.7, 0.5] }";

@@ -107,10 +107,34 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{
             "DampedInviscid", 5, "liquid { max_speed: 1 } formulation { viscous_force: DAMPED }",
             ":5:39: formulation.viscous_force: DAMPED without viscosity does nothing; set liquid.viscosity"},
+        Fault{"SphPoints", 4, "duration: 1 formulation { approximation: SPH quadrature: STRESS_POINTS }",
+              ":4:46: formulation.quadrature: other ones than NODAL are built for MLS with the kernel "
+              "WENDLAND and "
+              "the internal force GALERKIN; leave approximation, kernel and internal_force out"},
+        Fault{"PressureOfLayers", 4, "duration: 1 formulation { boundary_pressure: 100 }",
+              ":4:27: formulation.boundary_pressure: belongs to boundary FORCES; set that or leave this out"},
+        Fault{"NoBoundaryPressure", 4, "duration: 1 formulation { boundary: FORCES boundary_pressure: 0 }",
+              ":4:44: formulation.boundary_pressure: 0 Pa is not positive; leave it out for the default"},
         Fault{
-            "SphPoints", 4, "duration: 1 formulation { approximation: SPH quadrature: STRESS_POINTS }",
-            ":4:46: formulation.quadrature: STRESS_POINTS is built for MLS with the kernel WENDLAND and the "
-            "internal force GALERKIN; leave approximation, kernel and internal_force out"},
+            "SphForces", 4, "duration: 1 formulation { boundary: FORCES approximation: SPH }",
+            ":4:44: formulation.approximation: boundary FORCES are handed on by the shape functions of MLS; "
+            "leave one of them out"},
+        Fault{
+            "PredictedForces", 4,
+            "duration: 1 formulation { boundary: FORCES integrator: PREDICTOR_CORRECTOR }",
+            ":4:44: formulation.integrator: boundary FORCES ask for the velocities of the middle of a step; "
+            "take KICK_DRIFT_KICK or LEAP_FROG"},
+        Fault{"TenseForces", 5, "liquid { surface_tension: 0.07 } formulation { boundary: FORCES }",
+              ":5:10: liquid.surface_tension: counts walls as liquid, and boundary FORCES have no volume; "
+              "leave "
+              "one of them out"},
+        Fault{
+            "StickyForces", 6, "domain { max: [1, 0.5] surface: NO_SLIP } formulation { boundary: FORCES }",
+            ":6:24: domain.surface: boundary FORCES act across surfaces only, and liquid slides along them; "
+            "leave this out"},
+        Fault{"ForcesWithOpenings", 5,
+              "opening { name: 'out' side: X_MAX outflow { } } formulation { boundary: FORCES }",
+              ":5:1: opening[0]: is built in walls of LAYERS; leave formulation.boundary out"},
         Fault{"Beta", 4, "duration: 1 formulation { multistep_beta2: 1.1 }",
               ":4:27: formulation.multistep_beta2: belongs to integrator MULTISTEP; set that or leave this "
               "out"},

@@ -82,8 +82,30 @@ TEST(Setup, TakesOverTheChoicesOfTheFormulation) {
   EXPECT_EQ(formulation("approximation: CORRECTED_SPH").approximation, fluid::Approximation::corrected_sph);
   EXPECT_EQ(formulation("internal_force: SYMMETRIZED").internal_force, fluid::InternalForce::symmetrized);
   EXPECT_EQ(formulation("quadrature: STRESS_POINTS").quadrature, fluid::Quadrature::stress_points);
+  EXPECT_EQ(formulation("").boundary, fluid::BoundaryTreatment::layers);
+  const fluid::Formulation forces =
+      formulation("boundary: FORCES boundary_pressure: 5000 force_on_receding: true");
+  EXPECT_EQ(forces.boundary, fluid::BoundaryTreatment::forces);
+  EXPECT_EQ(forces.boundary_pressure, 5000);
+  EXPECT_TRUE(forces.force_on_receding);
   EXPECT_EQ(formulation("integrator: PREDICTOR_CORRECTOR").integrator,
             fluid::Integrator::predictor_corrector);
+}
+
+// A third of the spacing, 0.1 m, apart on all four sides, none of which is a mirror.
+TEST(Setup, HasOneLayerOfBoundaryForces) {
+  const std::string forces = "fluid { box { min: [0, 0] max: [0.4, 1] } } formulation { boundary: FORCES } ";
+  const auto body = [](const std::string& width) {
+    return "body { name: 'block' box { size: [" + width + ", 0.4] } position: [0.7, 1.5] density: 500 }";
+  };
+  const fluid::Setup setup = server::to_setup(tank_with(forces + body("0.4")), 1);
+  EXPECT_EQ(setup.mirrors.at, (std::array<bool, 6>{}));
+  EXPECT_EQ(setup.walls.position.size(), 2u * (30 + 60));
+  ASSERT_EQ(setup.bodies.size(), 1u);
+  EXPECT_EQ(setup.bodies[0].position.size(), 4u * 11);
+  EXPECT_GT(setup.bodies[0].free_mass, 0);
+  EXPECT_THROW(server::to_setup(tank_with(forces + body("0.28")), 1), protocol::InputError)
+      << "thinner than the support, 0.29 m";
 }
 
 TEST(Setup, HasWallsAtClosedSidesOnly) {
