@@ -81,6 +81,7 @@ void GalerkinSolver<Dim, Kernel>::collect_wrenches() {
   if (bodies_.empty() && !measure_wall_force_) return;
   compute_reactions();
   if (surface_tension_.is_used()) surface_tension_.react(search_, boundary_, parallel_, fluid_, reaction_);
+  if (background_cells_.is_used()) background_cells_.react(search_, boundary_, parallel_, fluid_, reaction_);
   if (boundary_forces_.is_used()) boundary_forces_.react(search_, boundary_, parallel_, fluid_, reaction_);
   for_active_boundary([&](std::size_t w) {
     if (!is_measured(w)) return;

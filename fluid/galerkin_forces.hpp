@@ -81,6 +81,7 @@ template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::complete_stress() {
   if (fluid_.has_several_liquids() && !fluid_.stress.empty()) compute_own_stress();
   if (surface_tension_.is_used()) surface_tension_.compute(search_, boundary_, parallel_, fluid_);
+  if (background_cells_.is_used()) background_cells_.compute(search_, boundary_, parallel_, fluid_);
   search_.halo().refresh_sources(fluid_);
 }
 
@@ -93,6 +94,7 @@ void GalerkinSolver<Dim, Kernel>::compute_forces() {
   if (!by_groups_) compute_single_forces();
   if (tension_control_) relieve_tension();
   if (surface_tension_.is_used()) surface_tension_.accelerate(parallel_, fluid_);
+  if (background_cells_.is_used()) background_cells_.accelerate(parallel_, fluid_);
   if (boundary_forces_.is_used()) boundary_forces_.accelerate(search_, boundary_, parallel_, fluid_);
 }
 

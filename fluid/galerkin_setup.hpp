@@ -31,11 +31,19 @@ SearchPlan search_plan(const Setup& setup) {
   const bool groups = goes_by_groups<Dim, Kernel>(setup);
   const bool singles = !groups || setup.formulation.shifting > 0.0 || setup.formulation.tension_control ||
                        setup.liquid.surface_tension > 0.0 ||
-                       setup.formulation.boundary == BoundaryTreatment::forces;
+                       setup.formulation.boundary == BoundaryTreatment::forces ||
+                       setup.formulation.quadrature == Quadrature::background_cells;
   return {.singles = singles,
           .wall_singles = singles || setup.has_viscous_stress(),
           .groups = groups,
           .cell = group_edge<Dim>(setup.spacing)};
+}
+
+// How far the neighbour lists must reach [m].
+template <int Dim, typename Kernel>
+double reach(const Setup& setup, const Model<Dim, Kernel>& model) {
+  return model.kernel.support() + model.extra_reach +
+         BackgroundCells<Dim>::extra_reach(setup.formulation, setup.spacing);
 }
 
 template <int Dim>
@@ -91,8 +99,8 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       fluid_(stages::make_particles<Dim>(setup, model_.eos)),
       images_(setup),
       boundary_(setup, images_.with_images(setup.bodies)),
-      search_(model_.kernel.support() + model_.extra_reach, stages::kSkin * model_.kernel.support(),
-              setup.period, stages::search_plan<Dim, Kernel>(setup), setup.mirrors),
+      search_(stages::reach(setup, model_), stages::kSkin * model_.kernel.support(), setup.period,
+              stages::search_plan<Dim, Kernel>(setup), setup.mirrors),
       openings_(setup, model_.kernel.support() + model_.extra_reach, stages::kSkin * model_.kernel.support()),
       by_groups_(stages::goes_by_groups<Dim, Kernel>(setup)),
       period_(setup.period),
@@ -101,6 +109,7 @@ GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
       crowding_(setup.formulation.spreading, setup.gravity.norm(), model_),
       surface_tension_(setup, model_.kernel.support()),
       boundary_forces_(setup),
+      background_cells_(setup),
       bodies_(setup.bodies.size()),
       lagged_(stages::make_lagged(setup, model_)),
       wrench_(setup.bodies.size() + 1),

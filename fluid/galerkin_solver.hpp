@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "fluid/background_cells.hpp"
 #include "fluid/body_images.hpp"
 #include "fluid/body_step.hpp"
 #include "fluid/boundary.hpp"
@@ -151,6 +152,7 @@ class GalerkinSolver final : public Solver {
   Crowding<Dim> crowding_;
   SurfaceTension<Dim> surface_tension_;
   BoundaryForces<Dim> boundary_forces_;
+  BackgroundCells<Dim> background_cells_;
   std::vector<Kinematics> bodies_;
   std::vector<LaggedAcceleration> lagged_;  // per body
   std::vector<Reaction<Dim>> reaction_;     // on the active boundary particles, by particle

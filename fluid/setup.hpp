@@ -39,8 +39,9 @@ enum class ViscousForce { stress, damped };
 
 enum class Integrator { kick_drift_kick, leap_frog, predictor_corrector, multistep };  // integrators.hpp
 
-// Where the stress is taken: at the particles, CF (43), or at points around them, CF (54).
-enum class Quadrature { nodal, stress_points };
+// Where the stress is taken: at the particles, CF (43), at points around them, CF (54), or at those of a
+// fixed grid, CF (46) and fig. 1.
+enum class Quadrature { nodal, stress_points, background_cells };
 
 // What walls and bodies are to the fluid: layers of particles that fill its support, or one of particles on
 // the surface that push it, CF (90)-(98) (boundary_forces.hpp).

@@ -137,10 +137,16 @@ void check(const Setup& setup) {
           static_cast<double>(f.approximation), "the symmetrized force is built for moving least squares, 0");
   require(!f.tension_control || mls, "approximation", static_cast<double>(f.approximation),
           "tension control needs moving least squares, 0");
-  require(f.quadrature == Quadrature::nodal ||
-              (mls && wendland && f.internal_force == InternalForce::galerkin && !f.tension_control),
+  require(
+      f.quadrature == Quadrature::nodal ||
+          (mls && wendland && f.internal_force == InternalForce::galerkin && !f.tension_control),
+      "quadrature", static_cast<double>(f.quadrature),
+      "other points than the particles, 1 and 2, go with moving least squares, the Wendland kernel and the "
+      "Galerkin force");
+  require(f.quadrature != Quadrature::background_cells ||
+              (f.weights == Weights::kernel_and_volume && f.mass == Mass::physical),
           "quadrature", static_cast<double>(f.quadrature),
-          "stress points, 1, go with moving least squares, the Wendland kernel and the Galerkin force");
+          "background cells, 2, go with volumes as weights and physical masses");
   check_boundary_forces(setup);
   const bool sum_one =
       f.approximation != Approximation::sph && f.approximation != Approximation::corrected_sph;

@@ -56,6 +56,17 @@ fluid::Integrator to_integrator(Integrator integrator) {
   }
 }
 
+fluid::Quadrature to_quadrature(Quadrature quadrature) {
+  switch (quadrature) {
+    case STRESS_POINTS:
+      return fluid::Quadrature::stress_points;
+    case BACKGROUND_CELLS:
+      return fluid::Quadrature::background_cells;
+    default:
+      return fluid::Quadrature::nodal;
+  }
+}
+
 }  // namespace
 
 fluid::Formulation to_formulation(const Formulation& formulation) {
@@ -78,7 +89,7 @@ fluid::Formulation to_formulation(const Formulation& formulation) {
   result.integrator = to_integrator(formulation.integrator());
   if (formulation.has_multistep_beta1()) result.multistep_beta1 = formulation.multistep_beta1();
   if (formulation.has_multistep_beta2()) result.multistep_beta2 = formulation.multistep_beta2();
-  if (formulation.quadrature() == STRESS_POINTS) result.quadrature = fluid::Quadrature::stress_points;
+  result.quadrature = to_quadrature(formulation.quadrature());
   if (formulation.mass() == LUMPED) result.mass = fluid::Mass::lumped;
   if (formulation.has_interpolated_motion()) result.interpolated_motion = formulation.interpolated_motion();
   if (formulation.has_initial_parameters()) result.initial_parameters = formulation.initial_parameters();

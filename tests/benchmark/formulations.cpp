@@ -29,6 +29,7 @@ const std::vector<Formulation>& all_formulations() {
        "PC (26)-(27), Courant number 0.2",
        {"formulation.integrator=MULTISTEP", "formulation.courant=0.2"}},
       {"stress_points", "stress points CF (54)", {"formulation.quadrature=STRESS_POINTS"}},
+      {"background_cells", "points of a fixed grid CF (46)", {"formulation.quadrature=BACKGROUND_CELLS"}},
       {"lumped", "lumped mass CF (56)", {"formulation.mass=LUMPED"}},
       {"interpolated",
        "motion with the interpolated velocity CF (75)",

@@ -90,6 +90,12 @@ INSTANTIATE_TEST_SUITE_P(
                   s.formulation.quadrature = Quadrature::stress_points;
                 },
                 "quadrature", "1"},
+        Refusal{"CellsOfLumped",
+                [](Setup& s) {
+                  s.formulation.mass = Mass::lumped;
+                  s.formulation.quadrature = Quadrature::background_cells;
+                },
+                "quadrature", "background cells, 2"},
         Refusal{"BoundaryPressure", [](Setup& s) { s.formulation.boundary_pressure = -3; },
                 "boundary_pressure [Pa]", "-3"},
         Refusal{"ForcesOfSph",

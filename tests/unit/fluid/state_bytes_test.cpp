@@ -82,6 +82,7 @@ TEST(StateBytes, HoldWhatEveryFormulationKeeps) {
       {"SPH", 0, [](Formulation& f) { f.approximation = Approximation::sph; }},
       {"corrected SPH", 0, [](Formulation& f) { f.approximation = Approximation::corrected_sph; }},
       {"stress points", 0, [](Formulation& f) { f.quadrature = Quadrature::stress_points; }},
+      {"background cells", 20, [](Formulation& f) { f.quadrature = Quadrature::background_cells; }},
       {"boundary forces", 20, [](Formulation& f) { f.boundary = BoundaryTreatment::forces; }},
       {"cubic spline", 0, [](Formulation& f) { f.kernel = KernelKind::cubic_spline; }},
   };

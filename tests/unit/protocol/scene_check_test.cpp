@@ -111,6 +111,10 @@ INSTANTIATE_TEST_SUITE_P(
               ":4:46: formulation.quadrature: other ones than NODAL are built for MLS with the kernel "
               "WENDLAND and "
               "the internal force GALERKIN; leave approximation, kernel and internal_force out"},
+        Fault{"LumpedCells", 4, "duration: 1 formulation { quadrature: BACKGROUND_CELLS mass: LUMPED }",
+              ":4:27: formulation.quadrature: BACKGROUND_CELLS takes its weights from the particles' volumes "
+              "and "
+              "is built for their own masses; leave weights and mass out"},
         Fault{"PressureOfLayers", 4, "duration: 1 formulation { boundary_pressure: 100 }",
               ":4:27: formulation.boundary_pressure: belongs to boundary FORCES; set that or leave this out"},
         Fault{"NoBoundaryPressure", 4, "duration: 1 formulation { boundary: FORCES boundary_pressure: 0 }",

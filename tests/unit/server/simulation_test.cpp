@@ -82,6 +82,7 @@ TEST(Setup, TakesOverTheChoicesOfTheFormulation) {
   EXPECT_EQ(formulation("approximation: CORRECTED_SPH").approximation, fluid::Approximation::corrected_sph);
   EXPECT_EQ(formulation("internal_force: SYMMETRIZED").internal_force, fluid::InternalForce::symmetrized);
   EXPECT_EQ(formulation("quadrature: STRESS_POINTS").quadrature, fluid::Quadrature::stress_points);
+  EXPECT_EQ(formulation("quadrature: BACKGROUND_CELLS").quadrature, fluid::Quadrature::background_cells);
   EXPECT_EQ(formulation("").boundary, fluid::BoundaryTreatment::layers);
   const fluid::Formulation forces =
       formulation("boundary: FORCES boundary_pressure: 5000 force_on_receding: true");
