@@ -36,14 +36,10 @@ double pressure_scale(const Setup& setup) {
 
 }  // namespace
 
-double boundary_force_range(const Formulation& formulation, double spacing) {
-  return kRange * formulation.smoothing * spacing;
-}
-
 template <int Dim>
 BoundaryForces<Dim>::BoundaryForces(const Setup& setup)
     : kernel_(setup.formulation.smoothing * setup.spacing),
-      range_(boundary_force_range(setup.formulation, setup.spacing)),
+      range_(kRange * setup.formulation.smoothing * setup.spacing),
       on_receding_(setup.formulation.force_on_receding) {
   if (setup.formulation.boundary != BoundaryTreatment::forces) return;
   floor_ = setup.formulation.moment_floor * lattice_moment<Dim>(kernel_, setup.spacing);

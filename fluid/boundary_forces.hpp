@@ -12,11 +12,8 @@
 
 namespace sluice::fluid {
 
-// Radius r0 of the boundary forces [m]; CF section 6 has 0.7 h.
-double boundary_force_range(const Formulation& formulation, double spacing);
-
 // Boundary forces: walls and bodies are one layer of particles k on their surface, dx/3 apart, with normals
-// n_k. Fluid particles j nearer than r0 to any of them are pushed by, CF (95) and (111)-(113),
+// n_k. Fluid particles j nearer than r0 = 0.7 h to any of them are pushed by, CF (95) and (111)-(113),
 //   F_j = sum_k f1 f2,   f2 = A/r ((r0/r)^4 - (r0/r)^2) n_k,   r = |x_j - x_k|,
 //   f1 = 1 where (v-hat_j - v_k).n_k < 0, else 0,
 // and the fluid's shape functions hand that on, CF (94) and (98):  f_i = sum_j F_j N_i(x_j).
@@ -34,8 +31,9 @@ double boundary_force_range(const Formulation& formulation, double spacing);
 //   masses CF (58) a falling drop would be sheared, the row at its surface having 1.24 of its weight.
 // - sum_i N_i = 1, so the reaction on k is -sum_j F_jk to round-off. What a floored fit (spray) leaves of
 //   sum_i x_i N_i(x_j) - x_j is taken over into its moment.
-// Cost: a fit at every particle near the boundary and a pass over all pairs. One layer of particles dx/3
-// apart and without volume goes through the sweeps like any boundary.
+// f2 is held below r0/6 (boundary_forces.cpp). A tank at rest fails (README.md, "Boundary forces").
+// Cost: a fit at every particle near the boundary and a pass over all pairs, twice the time of a step by
+// default. The particles have no volume and go through the sweeps like any boundary, with no effect.
 template <int Dim>
 class BoundaryForces {
  public:

@@ -165,6 +165,24 @@ INSTANTIATE_TEST_SUITE_P(
                20, true, true},
         Choice{"BoundaryForces", [](Formulation& f) { f.boundary = BoundaryTreatment::forces; }, 0, true,
                true},
+        Choice{"BoundaryForcesOfALeapFrog",
+               [](Formulation& f) {
+                 f.boundary = BoundaryTreatment::forces;
+                 f.integrator = Integrator::leap_frog;
+               },
+               0, true, true},
+        Choice{"BoundaryForcesThatAlwaysPush",
+               [](Formulation& f) {
+                 f.boundary = BoundaryTreatment::forces;
+                 f.force_on_receding = true;
+               },
+               0, true, true},
+        Choice{"BoundaryForcesOnInterpolatedMotion",
+               [](Formulation& f) {
+                 f.boundary = BoundaryTreatment::forces;
+                 f.interpolated_motion = 1;
+               },
+               0, true, false},
         Choice{"ViscousBoundaryForces", [](Formulation& f) { f.boundary = BoundaryTreatment::forces; }, 20,
                true, true},
         Choice{"Isobaric",
