@@ -32,7 +32,7 @@ TEST(Defaults, AreThoseOfTheSceneDescription) {
 // Liquid with nothing around it is kept from tearing under its own tension.
 TEST(Defaults, ShiftingFollowsWhatHoldsTheLiquid) {
   const std::vector<std::string> flight{"gravity=[0, 0]", "domain.open=[X_MIN, X_MAX, Y_MIN, Y_MAX]",
-                                        "body=[]"};
+                                        "body=[]", "liquid.max_speed=1"};
   EXPECT_EQ(filled(flight).formulation().shifting(), 16);
   EXPECT_TRUE(filled(flight).formulation().tension_control());
   std::vector<std::string> held = flight;
