@@ -21,11 +21,11 @@ namespace sluice::fluid {
 // with the fit at x_q over fluid and boundary. Density and viscous stress are interpolated to the points by
 // that fit, CF (49). Boundary particles stay quadrature points themselves.
 //
-// - The paper takes Gauss's rule, and does not say how cells that liquid fills in part are weighed. Here
-// every
-//   particle spreads its volume over the points within dx of it along every axis, by the product of
-//   1 - |x|/dx: the weights' sum and centre are those of the particles' volumes, wherever the surface is, and
-//   all alike within the undisturbed lattice.
+// - The paper takes Gauss's rule, and does not say how cells that liquid fills in part are
+//   weighed. Here every particle spreads its volume over the points within dx of it along
+//   every axis, by the product of 1 - |x|/dx: the weights' sum and centre are those of the
+//   particles' volumes, wherever the surface is, and all alike within the undisturbed
+//   lattice.
 // - Where the fit at a point is floored (spray), density is the mean of what is near, and there is no shear.
 // - Linear and angular momentum close to round-off, since g = -G m1/m0 and G shares C's eigenvectors.
 // - The paper calls it unsuited to Lagrangian flow, where the liquid's domain changes: a comparator.

@@ -27,9 +27,9 @@ Vec<Dim> concentration_gradient(const Model<Dim, Kernel>& model, const Vec<Dim>&
 //   -S h^2 |d| sum_j V_j grad W(x_ij),      |d| the norm of the strain rate,
 // (S. Lind, R. Xu, P. Stansby, B. Rogers, J. Comput. Phys. 231, 2012, Fick's law; scaled with the strain
 // rate, which tears the arrangement, so that rest and rigid motion have none). Density is carried along with
-// its gradient; particles keep their velocity, and so the fluid its momentum. Fluid that has a surface particle
-// in its support drifts along the surface only, which does not move by it; spray not at all. Costs one more
-// sweep.
+// its gradient; particles keep their velocity, and so the fluid its momentum. Fluid that has a surface
+// particle in its support drifts along the surface only, which does not move by it; spray not at all. Costs
+// one more sweep.
 template <int Dim>
 class Shifting {
  public:

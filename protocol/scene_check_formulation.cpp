@@ -84,15 +84,13 @@ void check_combinations(const Scene& scene, FieldCheck& check) {
   const bool galerkin = f.internal_force() == INTERNAL_FORCE_UNSPECIFIED || f.internal_force() == GALERKIN;
   needs(!nodal, is_mls(f) && wendland && galerkin, "quadrature",
         "other ones than NODAL are built for MLS with the kernel WENDLAND and the internal force GALERKIN; "
-        "leave "
-        "approximation, kernel and internal_force out");
+        "leave approximation, kernel and internal_force out");
   needs(!nodal, !f.tension_control(), "quadrature",
         "other ones than NODAL have their pressures off the particles, which tension_control does not know; "
         "leave one out");
   needs(f.quadrature() == BACKGROUND_CELLS, f.weights() != KERNEL_ALONE && f.mass() != LUMPED, "quadrature",
         "BACKGROUND_CELLS takes its weights from the particles' volumes and is built for their own masses; "
-        "leave "
-        "weights and mass out");
+        "leave weights and mass out");
   needs(f.has_isobaric_scale(), f.internal_force() == ISOBARIC, "isobaric_scale",
         "belongs to internal_force ISOBARIC; set that or leave this out");
   const bool unweighted = f.weights() == WEIGHTS_UNSPECIFIED || f.weights() == KERNEL_AND_VOLUME;

@@ -134,7 +134,8 @@ bool is_in_free_flight(const Scene& scene) {
 
 void fill_shifting(Formulation& formulation, const Scene& scene) {
   const bool one_liquid = scene.other_liquid().empty();
-  const bool flies = one_liquid && is_in_free_flight(scene) && has_fit(formulation);
+  const bool flies = one_liquid && is_in_free_flight(scene) && has_fit(formulation) &&
+                     formulation.boundary() != FORCES;  // not built for tension control
   const bool is_periodic = one_liquid && scene.domain().periodic_size() > 0;
   if (!formulation.has_tension_control()) formulation.set_tension_control(flies);
   if (!formulation.has_shifting()) formulation.set_shifting(flies ? 16 : is_periodic ? 6 : 0);

@@ -43,6 +43,11 @@ TEST(Defaults, ShiftingFollowsWhatHoldsTheLiquid) {
   sph.push_back("formulation.approximation=SPH");
   EXPECT_EQ(filled(sph).formulation().shifting(), 0);
   EXPECT_FALSE(filled(sph).formulation().tension_control());
+  std::vector<std::string> forced = flight;
+  forced.push_back("formulation.boundary=FORCES");
+  EXPECT_FALSE(filled(forced).formulation().tension_control());
+  EXPECT_TRUE(check_fields(filled(forced)).empty());
+  EXPECT_TRUE(check_fields(filled(flight)).empty());
 }
 
 // A recorded scene has its defaults filled in and is checked again when it is run again.
