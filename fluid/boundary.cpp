@@ -20,10 +20,19 @@ BoundaryParticles<Dim>::BoundaryParticles(const Setup& setup, std::span<const Bo
   acceleration_.assign(size(), Vec<Dim>::Zero());
   pressure.assign(size(), 0.0);
   dilation.assign(size(), 1.0);
+  impact.assign(size(), 0.0);
+  returned_at_.assign(size(), -1);
   if (!setup.has_viscous_stress()) return;
   stress.assign(size(), Mat<Dim>::Zero());
   if (std::find(no_slip_.begin(), no_slip_.end(), true) != no_slip_.end())
     sticking.assign(size(), Vec<Dim>::Zero());
+}
+
+template <int Dim>
+void BoundaryParticles<Dim>::make_returning(std::span<const std::size_t> particles) {
+  if (!returned_force.empty()) std::fill(returned_at_.begin(), returned_at_.end(), -1);
+  returned_force.assign(particles.size(), {});
+  for (std::size_t k = 0; k < particles.size(); ++k) returned_at_[particles[k]] = static_cast<std::int32_t>(k);
 }
 
 template <int Dim>

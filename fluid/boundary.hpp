@@ -37,6 +37,16 @@ struct Surface {
   Mat<Dim> across = Mat<Dim>::Zero();
 };
 
+// What the fluid i near a boundary particle gets from it besides its pressure, W (s + S x_iw), and the sum of
+// that over i: returned_force.hpp.
+template <int Dim>
+struct ReturnedForce {
+  Vec<Dim> s = Vec<Dim>::Zero();                     // [N m^Dim]
+  Mat<Dim> S = Mat<Dim>::Zero();                     // [N m^(Dim-1)]
+  Vec<Dim> force = Vec<Dim>::Zero();                 // [N]
+  Eigen::Vector3d couple = Eigen::Vector3d::Zero();  // about the boundary particle [N m]
+};
+
 // All boundary particles: the walls first, then body after body. Walls are body 0, at rest; the scene's body
 // b is body b + 1 here; the images of bodies are bodies too.
 template <int Dim>
@@ -66,6 +76,13 @@ class BoundaryParticles {
   [[nodiscard]] const std::vector<Plate<Dim>>& plates() const { return plates_; }
   [[nodiscard]] std::size_t body_count() const { return plate_of_body_.size(); }
 
+  // From now on these return forces, zero to begin with, and no others.
+  void make_returning(std::span<const std::size_t> particles);
+  // Null of most.
+  [[nodiscard]] const ReturnedForce<Dim>* returned(std::size_t w) const {
+    return returned_at_[w] < 0 ? nullptr : &returned_force[static_cast<std::size_t>(returned_at_[w])];
+  }
+
   // Volume as sampled [m^Dim], 0 with boundary forces; node().volume follows the compression of the fluid
   // near it.
   [[nodiscard]] double sampled_volume(std::size_t w) const { return sampled_volume_[w]; }
@@ -74,6 +91,9 @@ class BoundaryParticles {
   std::vector<double> pressure;  // [Pa]
   std::vector<Mat<Dim>> stress;  // viscous part [Pa]; empty without viscosity
   std::vector<double> dilation;  // wetness times volume of the fluid near over its first volume
+  std::vector<double> impact;    // share in an impact (0 to 1)
+  // Of the boundary particles that return a force, in the order of make_returning.
+  std::vector<ReturnedForce<Dim>> returned_force;
   // What a no-slip surface adds to node().v in the shear of a viscous fluid [m/s]; empty without.
   std::vector<Vec<Dim>> sticking;
 
@@ -95,6 +115,7 @@ class BoundaryParticles {
   std::vector<bool> no_slip_;  // per body
   std::vector<double> sampled_volume_;
   std::vector<std::int32_t> body_, face_;
+  std::vector<std::int32_t> returned_at_;  // place in returned_force, or -1
   std::vector<std::size_t> first_;  // of every body, and the end
   std::vector<std::int32_t> plate_of_body_;
   std::vector<Plate<Dim>> plates_;

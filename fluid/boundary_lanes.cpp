@@ -86,8 +86,8 @@ HWY_INLINE void states(const LaneModel<Dim>& model, const NodeLanes<Dim>& group,
     const Vecs<Dim> pull = load(lanes.pull, turn);
     MomentSums<Dim> moments;
     moments.clear();
-    V p = zero, rho = zero, volume = zero, dynamic = zero;
-    Vecs<Dim> px = zeros<Dim>(), rhox = zeros<Dim>();
+    V p = zero, rho = zero, volume = zero, dynamic = zero, fitted = zero;
+    Vecs<Dim> px = zeros<Dim>(), rhox = zeros<Dim>(), g = zeros<Dim>();
     for (std::size_t n = 0; n < near.index.size(); ++n) {
       const std::uint32_t index = near.index[n];
       const Node<Dim>& f = particles.node[index];
@@ -100,7 +100,14 @@ HWY_INLINE void states(const LaneModel<Dim>& model, const NodeLanes<Dim>& group,
       const V r2 = dot(x_fw, x_fw), rho_f = set(f.rho);
       const V W = weight<Dim>(kernel, near, n, turn, r2);
       const V dp = hn::Neg(rho_f) * dot(pull, x_fw);
-      const V p_f = particles.fit[index].floored ? zero : set(particles.pressure[index]) + dp;
+      const Fit<Dim>& fit = particles.fit[index];
+      V p_f = zero;
+      if (!fit.floored) {
+        p_f = set(particles.pressure[index]) + dp;
+        fitted = fitted + W;
+        SLUICE_UNROLL
+        for (int a = 0; a < Dim; ++a) g[a] = hn::MulAdd(W, set(fit.g[a]), g[a]);
+      }
       const V rho_w = hn::MulAdd(dp, per_c2, rho_f);
       const V approach = hn::Max(zero, dot(toward, x_fw));
       p = hn::MulAdd(W, p_f, p);
@@ -122,6 +129,8 @@ HWY_INLINE void states(const LaneModel<Dim>& model, const NodeLanes<Dim>& group,
     store(rho, lanes.rho, turn);
     store(volume, lanes.volume, turn);
     store(dynamic, lanes.dynamic, turn);
+    store(fitted, lanes.fitted, turn);
+    store(g, lanes.g, turn);
     store(px, lanes.px, turn);
     store(rhox, lanes.rhox, turn);
   }

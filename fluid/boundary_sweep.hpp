@@ -43,13 +43,26 @@ Mat<Dim> boundary_stress(const Model<Dim, Kernel>& model, const Particles<Dim>& 
   return reflection * mean * reflection;
 }
 
+// Share of boundary particle w that is in an impact. There, the pressure is that of many rows of liquid at
+// rest, row [Pa] each, and the fluid is one-sided: g, which is near -G m1/m0, is not small against G h. In
+// liquid at rest one of both is: deep down the neighbours stand all around, and the surface bears no pressure.
+inline constexpr double kRowsOfImpact = 4.0, kOneSided = 0.02;
+inline double impact(double pressure, double row, double one_sided) {
+  const auto ramp = [](double value, double from) { return std::clamp(value / from - 1.0, 0.0, 1.0); };
+  if (!(pressure > 0.0)) return 0.0;
+  return ramp(one_sided, kOneSided) * (row > 0.0 ? ramp(pressure / row, kRowsOfImpact) : 1.0);
+}
+
 // Sums over the fluid f near a boundary particle w:
 //   W (p_f + dp) and W (rho_f + dp/c0^2),   dp = rho_f (g - a_w) . n n . x_wf the hydrostatic continuation,
-//   W V_f,   W rho_f u^2/2 with u the speed of approach;   with several liquids W times the relative density.
+//   W V_f,   W rho_f u^2/2 with u the speed of approach;   with several liquids W times the relative density;
+//   W g and W of those whose fit is not floored.
 template <int Dim>
 struct NearState {
   Extrapolation<Dim, 2> state;  // pressure and density
   double volume = 0, dynamic = 0, relative_density = 0;
+  Vec<Dim> g = Vec<Dim>::Zero();
+  double fitted = 0;
 };
 
 // (g - a_w) . n n [m/s^2], across the surface.
@@ -72,6 +85,7 @@ double take_over(const Model<Dim, Kernel>& model, const NearState<Dim>& near, st
   if (state.empty()) {
     boundary.pressure[w] = 0.0;
     boundary.dilation[w] = 1.0;
+    boundary.impact[w] = 0.0;
     node.rho = model.eos.rest_density();
     return 0.0;
   }
@@ -84,6 +98,10 @@ double take_over(const Model<Dim, Kernel>& model, const NearState<Dim>& near, st
   boundary.pressure[w] = wet * std::max(0.0, at_w[0]);
   boundary.dilation[w] = wet * near.volume * per_W / model.first_volume;
   node.rho = at_w[1];
+  const double one_sided =
+      near.fitted > 0.0 ? near.g.norm() / (near.fitted * model.boundary_G * model.h) : 0.0;
+  const double row = relative_density * node.rho * acceleration * model.spacing;
+  boundary.impact[w] = impact(boundary.pressure[w], row, one_sided);
   return wet;
 }
 
@@ -108,7 +126,12 @@ void extrapolate(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid,
     }
     const double dp = -rho * pull.dot(x_fw);
     const double approach = std::max(0.0, (boundary.velocity(w) - n.v).dot(x_fw));
-    near.state.add(W, x_fw, {fluid.fit[f].floored ? 0.0 : fluid.pressure[f] + dp, n.rho + dp * per_c2});
+    const Fit<Dim>& fit = fluid.fit[f];
+    near.state.add(W, x_fw, {fit.floored ? 0.0 : fluid.pressure[f] + dp, n.rho + dp * per_c2});
+    if (!fit.floored) {
+      near.g += W * fit.g;
+      near.fitted += W;
+    }
     near.volume += W * n.volume;
     near.dynamic += W * 0.5 * rho * approach * approach / (r2 + model.tiny_r2);
   }

@@ -4,6 +4,12 @@
 
 namespace sluice::fluid {
 
+// Inverse covariance [1/m^2] of the positions in `moments`, whose variances are kept above `floor` [m^2].
+template <int Dim>
+Mat<Dim> inverse_covariance(const Moments<Dim>& moments, double floor) {
+  return fit<Dim>({1.0, moments.m1 / moments.m0, moments.m2 / moments.m0}, floor).G;
+}
+
 // Weighted linear fit of N values of the fluid near a boundary particle: their mean, which belongs to the
 // centroid of that fluid, and their slope. Only fluid enters: with boundary particles among the data, what
 // they were given before would confirm itself.
@@ -32,8 +38,8 @@ class Extrapolation {
 
   // The variances of the positions are kept above `floor` [m^2], so that little data gives a small slope.
   [[nodiscard]] Slope slope(double floor) const {
-    const Moments<Dim> normalized{1.0, moments_.m1 / moments_.m0, moments_.m2 / moments_.m0};
-    return (sum_x_ / moments_.m0 - mean() * centroid().transpose()) * fit<Dim>(normalized, floor).G;
+    return (sum_x_ / moments_.m0 - mean() * centroid().transpose()) *
+           inverse_covariance<Dim>(moments_, floor);
   }
 
  private:

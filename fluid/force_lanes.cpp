@@ -23,11 +23,12 @@ HWY_INLINE void add_guard(const LaneModel<Dim>& model, M on, V r2, const Vecs<Di
 
 template <int Dim>
 struct ForceSums {
-  Vecs<Dim> internal, viscous, traction, guard;
+  Vecs<Dim> internal, viscous, traction;
+  Vecs<Dim> pairwise;  // [N]
   V diffusion;
 
   HWY_INLINE void clear() {
-    internal = viscous = traction = guard = zeros<Dim>();
+    internal = viscous = traction = pairwise = zeros<Dim>();
     diffusion = hn::Zero(D());
   }
 };
@@ -128,7 +129,15 @@ HWY_INLINE void gather_boundary(const LaneModel<Dim>& model, const NodeLanes<Dim
       V& traction = sums.traction[ab / Dim];
       traction = hn::NegMulAdd(W * set(walls.stress[w](ab / Dim, ab % Dim)), x_iw[ab % Dim], traction);
     }
-    add_guard<Dim>(model, on, r2, x_iw, sums.guard);
+    add_guard<Dim>(model, on, r2, x_iw, sums.pairwise);
+    if (const ReturnedForce<Dim>* back = walls.returned(w)) {
+      const V W_w = hn::IfThenElseZero(on, set(Wendland::value_factor(model.kernel)) * kernel.value(r2));
+      for (int a = 0; a < Dim; ++a) {
+        V returned = set(back->s[a]);
+        for (int b = 0; b < Dim; ++b) returned = hn::MulAdd(set(back->S(a, b)), x_iw[b], returned);
+        sums.pairwise[a] = hn::MulAdd(W_w, returned, sums.pairwise[a]);
+      }
+    }
   }
 }
 
@@ -154,7 +163,7 @@ HWY_INLINE void forces(const LaneModel<Dim>& model, const NodeLanes<Dim>& group,
     SLUICE_UNROLL
     for (int a = 0; a < Dim; ++a) {
       const V stress = hn::MulSub(set(model.boundary_G), sums.traction[a], sums.internal[a]);
-      force[a] = hn::MulAdd(volume, hn::MulAdd(W0, stress, alpha * sums.viscous[a]), sums.guard[a]);
+      force[a] = hn::MulAdd(volume, hn::MulAdd(W0, stress, alpha * sums.viscous[a]), sums.pairwise[a]);
     }
     store(force, lanes.force, turn);
     store(set(0.5 * model.density_diffusion * slope) * sums.diffusion, lanes.density_rate, turn);

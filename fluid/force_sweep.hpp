@@ -28,6 +28,14 @@ Vec<Dim> boundary_traction(const Model<Dim, Kernel>& model, const BoundaryPartic
   return force;
 }
 
+// What it gives back to the fluid in an impact, returned_force.hpp.
+template <int Dim>
+Vec<Dim> returned_traction(const BoundaryParticles<Dim>& boundary, std::size_t w, double W,
+                           const Vec<Dim>& x_iw) {
+  const ReturnedForce<Dim>* back = boundary.returned(w);
+  return back == nullptr ? Vec<Dim>(Vec<Dim>::Zero()) : Vec<Dim>(W * (back->s + back->S * x_iw));
+}
+
 // Penetration guard: a spring between a fluid and a boundary particle nearer than 3/4 of a spacing, which on
 // a lattice they never are. Takes the place of the boundary forces CF (113), with the scale m c0^2/dx^2 that
 // the paper leaves open and without its velocity switch, so that it conserves energy: a single particle that
@@ -72,8 +80,8 @@ class ForceSweep {
     for (const std::uint32_t w : neighbors) {
       const Vec<Dim> x_iw = node_.x - boundary.node()[w].x;
       const ValueAndSlope weight = Rule::weight(model_.kernel, x_iw);
-      traction_ +=
-          boundary_traction(model_, boundary, w, fluid_, i_, weight, x_iw) + guard_force(model_, x_iw);
+      traction_ += boundary_traction(model_, boundary, w, fluid_, i_, weight, x_iw) +
+                   returned_traction(boundary, w, weight.w, x_iw) + guard_force(model_, x_iw);
     }
   }
 
@@ -134,6 +142,14 @@ struct Reaction {
   Eigen::Vector3d couple = Eigen::Vector3d::Zero();  // [N m]
 };
 
+template <int Dim>
+void react_to_returned(const BoundaryParticles<Dim>& boundary, std::size_t w, Reaction<Dim>& sum) {
+  const ReturnedForce<Dim>* back = boundary.returned(w);
+  if (back == nullptr) return;
+  sum.force -= back->force;
+  sum.couple -= back->couple;
+}
+
 // The exact reaction: what the fluid particles near boundary particle w do to it. Fluid particle i
 // distributes its stress to w like to any neighbour, and takes w's traction with the opposite sign.
 template <int Dim, typename Kernel>
@@ -154,6 +170,7 @@ Reaction<Dim> reaction(const Model<Dim, Kernel>& model, const Particles<Dim>& fl
     sum.force -= traction + guard_force<Dim>(model, x_iw);
     if (!boundary.stress.empty()) sum.couple -= widen<Dim>(x_iw).cross(widen<Dim>(traction));
   }
+  react_to_returned<Dim>(boundary, w, sum);
   return sum;
 }
 

@@ -6,6 +6,7 @@
 #include "fluid/boundary_velocity.hpp"
 #include "fluid/damped_viscosity.hpp"
 #include "fluid/galerkin_solver.hpp"
+#include "fluid/returned_force.hpp"
 #include "fluid/symmetrized_force.hpp"
 
 namespace sluice::fluid {
@@ -20,6 +21,16 @@ void GalerkinSolver<Dim, Kernel>::for_active_boundary(const Visit& visit) const 
   }
   for (const std::uint32_t group : search_.groups().active_boundary())
     for (std::size_t w = group * kGroup; w < std::min((group + 1) * kGroup, boundary_.size()); ++w) visit(w);
+}
+
+// Fluid near an active boundary particle, and some beyond the reach; `buffer` may hold it.
+template <int Dim, typename Kernel>
+std::span<const std::uint32_t> GalerkinSolver<Dim, Kernel>::fluid_near_boundary(
+    std::size_t w, std::vector<std::uint32_t>& buffer) const {
+  if (by_groups_) return search_.groups().fluid_near_boundary_particle(w, buffer);
+  const auto& active = search_.active_boundary();
+  const auto at = std::lower_bound(active.begin(), active.end(), w);
+  return search_.fluid_near_active(static_cast<std::size_t>(at - active.begin()));
 }
 
 template <int Dim, typename Kernel>
@@ -42,6 +53,26 @@ void GalerkinSolver<Dim, Kernel>::extrapolate_to_boundary() {
   parallel_.for_each(active.size(), [&](std::size_t a) {
     extrapolate<Dim>(model_, fluid_, search_.fluid_near_active(a), active[a], boundary_);
   });
+}
+
+// What boundary particles in an impact give back to the fluid; those of other operators, and of comparators
+// that take the boundary's pressure for a node's, do not.
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::return_forces() {
+  if constexpr (Operator<Dim, Kernel>::kIsDefault) {
+    if (is_symmetrized_ || background_cells_.is_used()) return;
+    const Stopwatch watch(times_.boundary);
+    std::vector<std::size_t> hit;
+    for_active_boundary([&](std::size_t w) {
+      if (boundary_.impact[w] > 0.0) hit.push_back(w);
+    });
+    boundary_.make_returning(hit);
+    parallel_.for_each(hit.size(), [&](std::size_t k) {
+      std::vector<std::uint32_t> buffer;
+      boundary_.returned_force[k] =
+          keep_work<Dim>(model_, fluid_, fluid_near_boundary(hit[k], buffer), hit[k], boundary_);
+    });
+  }
 }
 
 // The fluid's force on every measured boundary particle.

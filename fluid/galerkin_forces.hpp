@@ -31,6 +31,7 @@ void GalerkinSolver<Dim, Kernel>::evaluate() {
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::compute_actions() {
   extrapolate_to_boundary();
+  return_forces();
   if (tension_control_ || shifting_.is_used()) surface_.detect(model_, fluid_, parallel_);
   compute_forces();
 }

@@ -90,6 +90,7 @@ class GalerkinSolver final : public Solver {
   void set_stress(std::size_t i);
   void complete_stress();
   void extrapolate_to_boundary();
+  void return_forces();
   void compute_forces();
   void collect_wrenches();
   void update_volumes();
@@ -122,6 +123,8 @@ class GalerkinSolver final : public Solver {
   [[nodiscard]] std::vector<std::uint32_t> measured_groups() const;
   template <typename Visit>
   void for_active_boundary(const Visit& visit) const;
+  [[nodiscard]] std::span<const std::uint32_t> fluid_near_boundary(std::size_t w,
+                                                                   std::vector<std::uint32_t>& buffer) const;
 
   [[nodiscard]] Vec<Dim> further_force(std::size_t i) const;
   [[nodiscard]] double inertia(std::size_t i) const;

@@ -34,6 +34,17 @@ std::uint8_t lanes_where(std::size_t group, std::size_t count, const Yes& yes) {
   return static_cast<std::uint8_t>(bits);
 }
 
+// What a list has for one particle of a group.
+std::span<const std::uint32_t> of_particle(const GroupList& list, std::size_t i,
+                                           std::vector<std::uint32_t>& buffer) {
+  const NearGroup near = list.of(i / kGroup);
+  if (near.lanes == nullptr) return near.index;
+  buffer.clear();
+  for (std::size_t n = 0; n < near.index.size(); ++n)
+    if (near.lanes[n] >> i % kGroup & 1) buffer.push_back(near.index[n]);
+  return buffer;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -103,12 +114,13 @@ void GroupSearch<Dim>::rebuild(const Particles<Dim>& fluid, const BoundaryPartic
 template <int Dim>
 std::span<const std::uint32_t> GroupSearch<Dim>::boundary_near_particle(
     std::size_t i, std::vector<std::uint32_t>& buffer) const {
-  const NearGroup near = boundary_.of(i / kGroup);
-  if (near.lanes == nullptr) return near.index;
-  buffer.clear();
-  for (std::size_t n = 0; n < near.index.size(); ++n)
-    if (near.lanes[n] >> i % kGroup & 1) buffer.push_back(near.index[n]);
-  return buffer;
+  return of_particle(boundary_, i, buffer);
+}
+
+template <int Dim>
+std::span<const std::uint32_t> GroupSearch<Dim>::fluid_near_boundary_particle(
+    std::size_t w, std::vector<std::uint32_t>& buffer) const {
+  return of_particle(of_boundary_, w, buffer);
 }
 
 template class GroupSearch<2>;

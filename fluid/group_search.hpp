@@ -46,6 +46,9 @@ class GroupSearch {
   // Groups of boundary particles that have fluid near.
   [[nodiscard]] const std::vector<std::uint32_t>& active_boundary() const { return active_; }
   [[nodiscard]] NearGroup fluid_near_boundary(std::size_t group) const { return of_boundary_.of(group); }
+  // Fluid near one boundary particle, and some beyond the reach; `buffer` holds it.
+  [[nodiscard]] std::span<const std::uint32_t> fluid_near_boundary_particle(
+      std::size_t w, std::vector<std::uint32_t>& buffer) const;
 
   // Calls visit(i, w) for all pairs of fluid and of the `count` boundary particles.
   template <typename Visit>

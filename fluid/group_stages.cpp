@@ -118,7 +118,10 @@ void GroupStages<Dim>::extrapolate(const Particles<Dim>& fluid, BoundaryParticle
       slopes.row(0) = vec_at<Dim>(lanes.px, l);
       slopes.row(1) = vec_at<Dim>(lanes.rhox, l);
       const Eigen::Vector2d sums(lanes.p[l], lanes.rho[l]);
-      take_over(model_, {{moments, sums, slopes}, lanes.volume[l], lanes.dynamic[l]}, w, boundary);
+      NearState<Dim> near{{moments, sums, slopes}, lanes.volume[l], lanes.dynamic[l]};
+      near.g = vec_at<Dim>(lanes.g, l);
+      near.fitted = lanes.fitted[l];
+      take_over(model_, near, w, boundary);
     }
   });
 }
@@ -164,8 +167,10 @@ void GroupStages<Dim>::react(const Particles<Dim>& fluid, const BoundaryParticle
         }
         gather_reaction<Dim>(model_, node_lanes(boundary.node(), boundary.size(), group),
                              search_.fluid_near_boundary(group), fluid, lanes);
-        for (std::size_t w = group * kGroup; w < group_end(group, boundary.size()); ++w)
+        for (std::size_t w = group * kGroup; w < group_end(group, boundary.size()); ++w) {
           reaction[w].force = vec_at<Dim>(lanes.force, w % kGroup);
+          react_to_returned<Dim>(boundary, w, reaction[w]);
+        }
       },
       GroupList::kBlock);
 }

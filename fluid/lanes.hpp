@@ -124,8 +124,8 @@ template <int Dim>
 struct StateLanes {
   LaneVec<Dim> body_velocity;
   LaneVec<Dim> pull;  // (g - a) . n n [m/s^2]
-  Lanes m0, p, rho, volume, dynamic;
-  LaneVec<Dim> m1, px, rhox;
+  Lanes m0, p, rho, volume, dynamic, fitted;
+  LaneVec<Dim> m1, px, rhox, g;
   LaneSym<Dim> m2;
 };
 template <int Dim>

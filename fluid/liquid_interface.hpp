@@ -52,7 +52,8 @@ class LiquidForceSweep {
     for (const std::uint32_t w : neighbors) {
       const Vec<Dim> x_iw = node_.x - boundary.node()[w].x;
       const ValueAndSlope weight = Operator<Dim, Kernel>::weight(model_.kernel, x_iw);
-      pair_ += boundary_traction(model_, boundary, w, fluid_, i_, weight, x_iw) + guard_force(model_, x_iw);
+      pair_ += boundary_traction(model_, boundary, w, fluid_, i_, weight, x_iw) +
+               returned_traction(boundary, w, weight.w, x_iw) + guard_force(model_, x_iw);
     }
   }
 

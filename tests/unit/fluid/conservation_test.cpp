@@ -133,7 +133,7 @@ TEST_P(ConservationOf, ASplash) {
   for (const int dimension : {2, 3}) {
     SCOPED_TRACE(testing::Message() << "dimension " << dimension);
     Splash splash(dimension, choice.viscosity, 1, choice.choose);
-    const Closure worst = closure(splash, 150);
+    const Closure worst = closure(splash, dimension == 2 ? 150 : 200);
     expect_forces(worst, splash, 0.005);
     expect_closed(worst.linear, choice.linear);
     expect_closed(worst.angular, choice.angular);

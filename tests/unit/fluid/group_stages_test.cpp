@@ -6,6 +6,7 @@
 #include "fluid/boundary_sweep.hpp"
 #include "fluid/boundary_velocity.hpp"
 #include "fluid/galerkin_stages.hpp"
+#include "fluid/returned_force.hpp"
 #include "tests/unit/fluid/clouds.hpp"
 #include "tests/unit/fluid/setups.hpp"
 
@@ -70,6 +71,24 @@ class Water {
     sweep.gather_fluid(search_->fluid_near_fluid(i));
     sweep.gather_boundary(search_->boundary_near_fluid(i), *boundary_);
     return {model_->gravity + sweep.force() / fluid_.mass[i], sweep.density_rate()};
+  }
+  // Of all boundary particles with pressure, as if they were in an impact; the number that return a force.
+  std::size_t return_forces() {
+    std::vector<std::size_t> hit, place;
+    for_active([&](std::size_t a, std::size_t w) {
+      if (boundary_->pressure[w] == 0.0) return;
+      hit.push_back(w);
+      place.push_back(a);
+    });
+    boundary_->make_returning(hit);
+    std::size_t returning = 0;
+    for (std::size_t k = 0; k < hit.size(); ++k) {
+      boundary_->impact[hit[k]] = 1.0;
+      ReturnedForce<Dim>& back = boundary_->returned_force[k];
+      back = keep_work<Dim>(*model_, fluid_, search_->fluid_near_active(place[k]), hit[k], *boundary_);
+      returning += back.force.isZero(0.0) ? 0 : 1;
+    }
+    return returning;
   }
   template <typename Visit>
   void for_active(const Visit& visit) const {
@@ -162,14 +181,17 @@ void check_forces(std::uint64_t seed) {
     EXPECT_NEAR(extrapolated.pressure[w], water.boundary_->pressure[w], 1e-6) << w;
     EXPECT_NEAR(extrapolated.dilation[w], water.boundary_->dilation[w], 1e-9) << w;
     EXPECT_NEAR(extrapolated.node()[w].rho, water.boundary_->node()[w].rho, 1e-9) << w;
+    EXPECT_NEAR(extrapolated.impact[w], water.boundary_->impact[w], 1e-9) << w;
   });
   EXPECT_GT(wet, 500.0);
+  EXPECT_GT(water.return_forces(), 10u);
   std::vector<Reaction<Dim>> reaction(water.boundary_->size());
   water.groups().react(water.fluid_, *water.boundary_, water.search_->groups().active_boundary(), reaction);
   water.for_active([&](std::size_t a, std::size_t w) {
     const Reaction<Dim> singly = fluid::reaction<Dim>(
         *water.model_, water.fluid_, water.search_->fluid_near_active(a), w, *water.boundary_);
     expect_same(reaction[w].force, singly.force, 1000.0, w, "reaction");
+    expect_same(reaction[w].couple, singly.couple, 1000.0, w, "couple of the reaction");
   });
   std::vector<std::pair<Vec<Dim>, double>> singly;
   for (std::size_t i = 0; i < water.fluid_.size(); ++i) singly.push_back(water.force_singly(i));
