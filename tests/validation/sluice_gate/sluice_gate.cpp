@@ -56,6 +56,7 @@ Outcome run(int resolution, const std::vector<std::string>& overrides, int threa
        {"from potential theory", "%", 100 * error, 5},
        {"from measurements", "%", 100 * std::abs(coefficient / measured_coefficient(kOpening, kDepth) - 1),
         5},
+       {"depth behind over the opening", "", behind / kOpening},
        {"contraction", "% from 0.602", 100 * std::abs(behind / kOpening / kContraction - 1), 5},
        {"depth in front", "% from the level", 100 * std::abs(in_front / kDepth - 1), 2}},
       error);
