@@ -32,7 +32,8 @@ template <int Dim>
 void BoundaryParticles<Dim>::make_returning(std::span<const std::size_t> particles) {
   if (!returned_force.empty()) std::fill(returned_at_.begin(), returned_at_.end(), -1);
   returned_force.assign(particles.size(), {});
-  for (std::size_t k = 0; k < particles.size(); ++k) returned_at_[particles[k]] = static_cast<std::int32_t>(k);
+  for (std::size_t k = 0; k < particles.size(); ++k)
+    returned_at_[particles[k]] = static_cast<std::int32_t>(k);
 }
 
 template <int Dim>

@@ -51,7 +51,8 @@ class Splash {
     std::size_t wet = 0;
     for (std::size_t w = 0; w < boundary_.size(); ++w) {
       if (boundary_.pressure[w] == 0.0) continue;
-      SCOPED_TRACE("boundary particle " + std::to_string(w) + " of body " + std::to_string(boundary_.body(w)));
+      SCOPED_TRACE("boundary particle " + std::to_string(w) + " of body " +
+                   std::to_string(boundary_.body(w)));
       ++wet;
       check(w, sum_work<Dim>(model_, fluid_, all_, w, boundary_));
     }
