@@ -179,6 +179,7 @@ void Coupling::end(Outcome& outcome) {
   }
   session_.send(RIGID, message());
   publisher_.update();
+  publish_status();  // where the run has come to, however short it was
   publisher_.publish("status", message());
 }
 
