@@ -21,6 +21,8 @@ BoundaryParticles<Dim>::BoundaryParticles(const Setup& setup, std::span<const Bo
   pressure.assign(size(), 0.0);
   dilation.assign(size(), 1.0);
   impact.assign(size(), 0.0);
+  one_sided.assign(size(), 0.0);
+  reversal.assign(size(), 0.0);
   returned_at_.assign(size(), -1);
   if (!setup.has_viscous_stress()) return;
   stress.assign(size(), Mat<Dim>::Zero());

@@ -92,14 +92,19 @@ class BoundaryParticles {
   std::vector<Mat<Dim>> stress;  // viscous part [Pa]; empty without viscosity
   std::vector<double> dilation;  // wetness times volume of the fluid near over its first volume
   std::vector<double> impact;    // share in an impact (0 to 1)
+  // |g| of the fluid near over the lattice's G h: 0 where it is all around, as on a lattice.
+  std::vector<double> one_sided;
   // Of the boundary particles that return a force, in the order of make_returning.
   std::vector<ReturnedForce<Dim>> returned_force;
   // What a no-slip surface adds to node().v in the shear of a viscous fluid [m/s]; empty without.
   std::vector<Vec<Dim>> sticking;
+  // Share of the flow's mean across the surface that node().v has reversed: boundary_velocity.hpp.
+  std::vector<double> reversal;
 
   // What moves and what is extrapolated; the rest stays as it was sampled.
   auto state() {
-    return std::tie(node_, velocity_, acceleration_, surface_, plates_, pressure, stress, dilation, sticking);
+    return std::tie(node_, velocity_, acceleration_, surface_, plates_, pressure, stress, dilation, one_sided,
+                    sticking);
   }
 
  private:
@@ -116,7 +121,7 @@ class BoundaryParticles {
   std::vector<double> sampled_volume_;
   std::vector<std::int32_t> body_, face_;
   std::vector<std::int32_t> returned_at_;  // place in returned_force, or -1
-  std::vector<std::size_t> first_;  // of every body, and the end
+  std::vector<std::size_t> first_;         // of every body, and the end
   std::vector<std::int32_t> plate_of_body_;
   std::vector<Plate<Dim>> plates_;
   std::vector<std::vector<Boundary::Face>> local_faces_;  // per plate

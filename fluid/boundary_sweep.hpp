@@ -45,8 +45,9 @@ Mat<Dim> boundary_stress(const Model<Dim, Kernel>& model, const Particles<Dim>& 
 
 // Share of boundary particle w that is in an impact. There, the pressure is that of many rows of liquid at
 // rest, row [Pa] each, and the fluid is one-sided: g, which is near -G m1/m0, is not small against G h. In
-// liquid at rest one of both is: deep down the neighbours stand all around, and the surface bears no pressure.
-inline constexpr double kRowsOfImpact = 4.0, kOneSided = 0.02;
+// liquid at rest one of both is: deep down the neighbours stand all around, and the surface bears no
+// pressure.
+inline constexpr double kRowsOfImpact = 2.0, kOneSided = 0.02;
 inline double impact(double pressure, double row, double one_sided) {
   const auto ramp = [](double value, double from) { return std::clamp(value / from - 1.0, 0.0, 1.0); };
   if (!(pressure > 0.0)) return 0.0;
@@ -85,7 +86,7 @@ double take_over(const Model<Dim, Kernel>& model, const NearState<Dim>& near, st
   if (state.empty()) {
     boundary.pressure[w] = 0.0;
     boundary.dilation[w] = 1.0;
-    boundary.impact[w] = 0.0;
+    boundary.impact[w] = boundary.one_sided[w] = 0.0;
     node.rho = model.eos.rest_density();
     return 0.0;
   }
@@ -98,10 +99,10 @@ double take_over(const Model<Dim, Kernel>& model, const NearState<Dim>& near, st
   boundary.pressure[w] = wet * std::max(0.0, at_w[0]);
   boundary.dilation[w] = wet * near.volume * per_W / model.first_volume;
   node.rho = at_w[1];
-  const double one_sided =
+  boundary.one_sided[w] =
       near.fitted > 0.0 ? near.g.norm() / (near.fitted * model.boundary_G * model.h) : 0.0;
   const double row = relative_density * node.rho * acceleration * model.spacing;
-  boundary.impact[w] = impact(boundary.pressure[w], row, one_sided);
+  boundary.impact[w] = impact(boundary.pressure[w], row, boundary.one_sided[w]);
   return wet;
 }
 

@@ -36,11 +36,11 @@ Vec<Dim> returned_traction(const BoundaryParticles<Dim>& boundary, std::size_t w
   return back == nullptr ? Vec<Dim>(Vec<Dim>::Zero()) : Vec<Dim>(W * (back->s + back->S * x_iw));
 }
 
-// Penetration guard: a spring between a fluid and a boundary particle nearer than 3/4 of a spacing, which on
-// a lattice they never are. Takes the place of the boundary forces CF (113), with the scale m c0^2/dx^2 that
-// the paper leaves open and without its velocity switch, so that it conserves energy: a single particle that
-// drifts into the wall between its neighbours changes no divergence, and so no pressure would stop it. Force
-// on the particle at the head of x_iw.
+// Penetration guard: a spring between a fluid and a boundary particle nearer than kGuardRange spacings, which
+// on a lattice they never are. Takes the place of the boundary forces CF (113), with the scale m c0^2/dx^2
+// that the paper leaves open and without its velocity switch, so that it conserves energy: a single particle
+// that drifts into the wall between its neighbours changes no divergence, and so no pressure would stop it.
+// Force on the particle at the head of x_iw.
 template <int Dim, typename Kernel>
 Vec<Dim> guard_force(const Model<Dim, Kernel>& model, const Vec<Dim>& x_iw) {
   const double r2 = x_iw.squaredNorm();

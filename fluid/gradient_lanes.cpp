@@ -165,16 +165,19 @@ HWY_INLINE void finish(const GradientSums<Dim>& s, double moment_floor, std::siz
   SLUICE_UNROLL
   for (int a = 0; a < Dim; ++a)
     for (int b = a; b < Dim; ++b) C[sym<Dim>(a, b)] = hn::NegMulAdd(s.m1[a], mean[b], s.m2[sym<Dim>(a, b)]);
-  const M above = invert<Dim>(C, set(moment_floor), G);
+  const V floor = set(moment_floor) * hn::Max(set(1.0), s.m0);
+  const M above = invert<Dim>(C, floor, G);
   store(G, out.G, turn);
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(D(), above, bits);
   for (std::size_t l = 0; l < kLanes; ++l) out.floored[turn + l] = (bits[0] >> l & 1) == 0;
   if (!hn::AllTrue(D(), above)) {
     LaneSym<Dim> c;
+    Lanes floors;
     store(C, c, turn);
+    store(floor, floors, turn);
     for (std::size_t l = turn; l < turn + kLanes; ++l)
-      if (out.floored[l]) set_floored<Dim>(c, moment_floor, l, out);
+      if (out.floored[l]) set_floored<Dim>(c, floors[l], l, out);
     G = load(out.G, turn);
   }
   Vecs<Dim> g = times<Dim>(G, mean);

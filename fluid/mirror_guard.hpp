@@ -20,7 +20,7 @@ class MirrorGuard {
  public:
   template <typename Kernel>
   MirrorGuard(const Mirrors& mirrors, const Model<Dim, Kernel>& model)
-      : range_(model.guard_range - 0.5 * model.spacing),
+      : range_(std::min(model.guard_range, 0.75 * model.spacing) - 0.5 * model.spacing),
         film_(0.4 * model.spacing),
         stiffness_(model.guard_stiffness) {
     for (int a = 0; a < Dim; ++a) {

@@ -91,14 +91,16 @@ Mat<Dim> floored_inverse(const Mat<Dim>& C, double floor, bool& floored) {
   }
 }
 
-// The fit from the moments, with the eigenvalues of C raised to at least `floor` [the unit of C]. Whatever G
+// The fit from the moments, with the eigenvalues of C raised to at least `floor` [the unit of C], where more
+// than a lattice is in the support m0 times as much: an oscillation of the particles has a frequency of up to
+// about c0 sqrt(m0 |G|), which the time step must resolve. Whatever G
 // becomes, g = -G m1/m0 keeps sum grad N = 0 (linear momentum), and G keeps the eigenvectors of C (a
 // pressure then exerts no net moment: angular momentum).
 template <int Dim>
 Fit<Dim> fit(const Moments<Dim>& m, double floor) {
   const Mat<Dim> C = m.m2 - m.m1 * m.m1.transpose() / m.m0;
   Fit<Dim> f;
-  f.G = floored_inverse<Dim>(C, floor, f.floored);
+  f.G = floored_inverse<Dim>(C, floor * std::max(1.0, m.m0), f.floored);
   f.m0 = m.m0;
   f.g = -f.G * m.m1 / m.m0;
   f.a = (1.0 - m.m1.dot(f.g)) / m.m0;

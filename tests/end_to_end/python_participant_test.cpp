@@ -66,7 +66,7 @@ class PythonExample : public RecordedRun {
 
 // Shut, the gate leaves the channel at the 0.12 m of its weir; open, it lets it rise to the reservoir's.
 TEST_F(PythonExample, AControllerHoldsTheLevel) {
-  example("hold_level.py level.h5 --spacing 0.02");
+  example("hold_level.py level.h5");
   const clients::Reader level = read("level.h5");
   double sum = 0;
   std::uint64_t count = 0;

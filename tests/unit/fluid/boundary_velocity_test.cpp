@@ -27,10 +27,19 @@ class Floor {
     scene_.setup.fluid.position.emplace_back(0, 0, 0);
   }
 
+  // What the particles of the floor took from the fluid in the step before.
+  struct Before {
+    double one_sided = 0, pressure = 1e5;  // [-], [Pa]
+  };
+
   // Largest difference of velocity to `expected(x)` over particles of the floor that see fluid all around
   // them, of at most `layers` layers, with that share of their sticking velocity.
   template <typename Flow, typename Expected>
   double worst(const Flow& flow, const Expected& expected, int layers, double share = 1.0) {
+    return worst(flow, expected, layers, share, Before{});
+  }
+  template <typename Flow, typename Expected>
+  double worst(const Flow& flow, const Expected& expected, int layers, double share, const Before& before) {
     std::vector<Vec<2>> places;
     for (int a = 0; a < 30; ++a)
       for (int b = 0; b < 10; ++b) places.emplace_back(kSpacing * (a + 0.5), kSpacing * (b + 0.5));
@@ -44,6 +53,8 @@ class Floor {
     for (std::size_t w = 0; w < boundary.size(); ++w) {
       const Vec<2> x = boundary.node()[w].x;
       if (x[0] < 0.5 || x[0] > 2.5 || x[1] < -kSpacing * layers) continue;
+      boundary.one_sided[w] = before.one_sided;
+      boundary.pressure[w] = before.pressure;
       mirror_velocity<2>(model, fluid, all, w, boundary);
       const Vec<2> sticking = boundary.sticks() ? boundary.sticking[w] : Vec<2>::Zero();
       worst = std::max(worst, (boundary.node()[w].v + share * sticking - expected(x)).norm());
@@ -60,10 +71,28 @@ TEST(MirrorVelocity, FlowAlongASlipWallGoesOn) {
   EXPECT_LT(Floor(false).worst(flow, flow, 2), 1e-12);
 }
 
-TEST(MirrorVelocity, FlowAgainstASlipWallChangesSign) {
+TEST(MirrorVelocity, FlowThatComesToRestAtASlipWallChangesSign) {
+  const auto stagnation = [](const Vec<2>& x) { return Vec<2>(x[0], -x[1]); };
+  EXPECT_LT(Floor(false).worst(stagnation, stagnation, 1), 1e-12);
+}
+
+TEST(MirrorVelocity, TheImageOfASingleRowIsAsFast) {
   const auto impact = [](const Vec<2>& x) { return Vec<2>(x[0], -2.0); };
   const auto image = [](const Vec<2>& x) { return Vec<2>(x[0], 2.0); };
-  EXPECT_LT(Floor(false).worst(impact, image, 2), 1e-12);
+  EXPECT_LT(Floor(false).worst(impact, image, 2, 1.0, {.one_sided = kSingleRow}), 1e-12);
+  EXPECT_LT(Floor(false).worst(impact, image, 2, 1.0, {.one_sided = 1.0}), 1e-12);
+}
+
+// Off a wall the fluid is followed by p/(rho c0) and a twentieth of c0 = 10 m/s, no further.
+TEST(MirrorVelocity, BeyondTheSpeedThatSoundGivesAVoidOpens) {
+  const double most = 1e4 / (1000.0 * 10.0) + kParting * 10.0;
+  const auto off = [&](double speed) { return [speed](const Vec<2>&) { return Vec<2>(0.0, speed); }; };
+  const auto worst = [&](double speed, double image) {
+    return Floor(false).worst(off(speed), off(image), 2, 1.0, {.one_sided = 1.0, .pressure = 1e4});
+  };
+  EXPECT_LT(worst(0.9 * most, -0.9 * most), 1e-12);
+  EXPECT_LT(worst(most + 3.0, 3.0 - most), 1e-12) << "both beside a surface at 3 m/s";
+  EXPECT_LT(worst(-most - 3.0, most + 3.0), 1e-12) << "against the wall";
 }
 
 TEST(MirrorVelocity, ShearAtANoSlipWallGoesOn) {

@@ -37,8 +37,9 @@ void expect_floored(const std::vector<Neighbor<Dim>>& neighbors) {
   EXPECT_LT((f.G - f.G.transpose()).norm(), 1e-12);
   const Vec<Dim> eigenvalues = smallest_first_eigenvalues<Dim>(f.G);
   EXPECT_GT(eigenvalues[0], 0.0);
-  EXPECT_LE(eigenvalues[Dim - 1], (1.0 + 1e-12) / kFloor);
-  EXPECT_GE(eigenvalues[Dim - 1], (1.0 - 1e-12) / kFloor);  // it is the floor that binds
+  const double floor = kFloor * std::max(1.0, m.m0);
+  EXPECT_LE(eigenvalues[Dim - 1], (1.0 + 1e-12) / floor);
+  EXPECT_GE(eigenvalues[Dim - 1], (1.0 - 1e-12) / floor);  // it is the floor that binds
 }
 
 template <int Dim>
@@ -75,7 +76,7 @@ void check_exact_fit() {
   std::mt19937_64 random(13);
   for (int k = 0; k < 50; ++k) {
     Moments<Dim> m;
-    for (int j = 0; j < 30; ++j) m.add(1.0, random_vector<Dim>(random));
+    for (int j = 0; j < 30; ++j) m.add(1.0 / 30.0 - 1e-12, random_vector<Dim>(random));  // m0 below 1
     const Mat<Dim> C = m.m2 - m.m1 * m.m1.transpose() / m.m0;
     const double smallest = smallest_first_eigenvalues<Dim>(C)[0];
     const Fit<Dim> f = fit(m, 0.999 * smallest);

@@ -106,5 +106,22 @@ TEST(Moments, LatticeMomentIsThatOfAParticleInTheMiddle) {
   check_lattice_moment<3>();
 }
 
+// A clump of eight particles within a spacing and nothing else near: m0 |G|, the square of the frequency at
+// which it can oscillate over c0^2, is no larger than the floor lets it be where a lattice fills the support.
+TEST(Moments, ACrowdOscillatesNoFasterThanTheFloorLets) {
+  const WendlandC2<2> kernel(1.5 * kSpacing);
+  const double floor = kFloor * lattice_moment<2>(kernel, kSpacing);
+  const auto frequency2 = [&](double size) {
+    Moments<2> m;
+    for (int k = 0; k < 8; ++k) {
+      const Vec<2> x = size * kSpacing * (Vec<2>(k % 4, k / 4) - Vec<2>(1.5, 0.5));
+      m.add(kSpacing * kSpacing * kernel.value(x), x);
+    }
+    EXPECT_GT(m.m0, 1.2);
+    return m.m0 * fit(m, floor).G.operatorNorm();
+  };
+  for (const double size : {0.1, 0.2, 0.4, 0.6}) EXPECT_LE(frequency2(size), (1.0 + 1e-12) / floor) << size;
+}
+
 }  // namespace
 }  // namespace sluice::fluid
