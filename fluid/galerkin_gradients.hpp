@@ -8,7 +8,6 @@
 #include "fluid/no_slip.hpp"
 #include "fluid/operator_sweep.hpp"
 #include "fluid/stress.hpp"
-#include "fluid/wedged.hpp"
 
 namespace sluice::fluid {
 
@@ -45,29 +44,19 @@ void GalerkinSolver<Dim, Kernel>::compute_single_gradients() {
   });
 }
 
-// Fluid that is caught between two surfaces, or was pressed through one, counts as spray and carries no
-// pressure at all (wedged.hpp): it would be that of one particle between stiff walls, whose forces do not
-// match the work done on it. With it, heavy bodies that come down on a floor bring several times their energy
-// in.
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::find_films() {
-  parallel_.for_each(fluid_.size(), [&](std::size_t i) {
-    thread_local std::vector<std::uint32_t> buffer;
-    const auto near =
-        by_groups_ ? search_.groups().boundary_near_particle(i, buffer) : search_.boundary_near_fluid(i);
-    const Vec<Dim>& x = fluid_.node[i].x;
-    if (near.empty() || !(is_wedged<Dim>(model_, x, near, boundary_, mirror_guard_.planes()) ||
-                          is_inside_boundary<Dim>(x, near, boundary_)))
-      return;
-    fluid_.fit[i].floored = true;
-    fluid_.node[i].rho = model_.eos.rest_density();
-    fluid_.divergence[i] = fluid_.density_rate[i] = 0.0;
-  });
+  const auto boundary_near = [this](std::size_t i, std::vector<std::uint32_t>& buffer) {
+    return by_groups_ ? search_.groups().boundary_near_particle(i, buffer) : search_.boundary_near_fluid(i);
+  };
+  const auto fluid_near = [this](std::size_t i, const auto& visit) { for_fluid_near(i, visit); };
+  films_.find(model_, boundary_, mirror_guard_.planes(), boundary_near, fluid_near, parallel_, fluid_);
 }
 
 // CF (70) with the divergence at the new positions, and the density diffusion of the last sweep 2. A particle
 // with too few neighbours for a fit is spray: it carries no tension, and its pressure falls to the ambient
-// one in the time that sound takes across it, since its own divergence hardly feels it. Nor is there tension
+// one in the time that sound takes across it, since its own divergence hardly feels it. In a film the
+// density rate is what leads to the pressure around it instead (films.hpp). Nor is there tension
 // between a particle and a mirror (mirror_guard.hpp).
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::advance_density(std::size_t i, double dt) {

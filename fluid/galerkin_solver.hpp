@@ -9,6 +9,7 @@
 #include "fluid/boundary_forces.hpp"
 #include "fluid/checkpoint.hpp"
 #include "fluid/crowding.hpp"
+#include "fluid/films.hpp"
 #include "fluid/force_sweep.hpp"
 #include "fluid/group_stages.hpp"
 #include "fluid/history.hpp"
@@ -123,6 +124,9 @@ class GalerkinSolver final : public Solver {
   [[nodiscard]] std::vector<std::uint32_t> measured_groups() const;
   template <typename Visit>
   void for_active_boundary(const Visit& visit) const;
+  // Calls visit(k) for the fluid near fluid particle i, and maybe others beyond the support.
+  template <typename Visit>
+  void for_fluid_near(std::size_t i, const Visit& visit) const;
   [[nodiscard]] std::span<const std::uint32_t> fluid_near_boundary(std::size_t w,
                                                                    std::vector<std::uint32_t>& buffer) const;
 
@@ -150,6 +154,7 @@ class GalerkinSolver final : public Solver {
   Period period_;
   CloseList close_;
   MirrorGuard<Dim> mirror_guard_;
+  Films<Dim> films_;
   FreeSurface<Dim> surface_;
   Shifting<Dim> shifting_;
   Crowding<Dim> crowding_;

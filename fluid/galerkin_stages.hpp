@@ -150,13 +150,17 @@ template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::spread_crowds(double dt) {
   if (!crowding_.is_used() || !crowding_.is_due(dt)) return;
   search_.halo().refresh_nodes(fluid_);
-  const auto for_fluid_near = [this](std::size_t i, const auto& visit) {
-    if (by_groups_)
-      search_.groups().for_fluid_near_particle(i, visit);
-    else
-      for (const std::uint32_t k : search_.fluid_near_fluid(i)) visit(k);
-  };
-  crowding_.spread(model_, for_fluid_near, parallel_, fluid_);
+  const auto fluid_near = [this](std::size_t i, const auto& visit) { for_fluid_near(i, visit); };
+  crowding_.spread(model_, fluid_near, parallel_, fluid_);
+}
+
+template <int Dim, typename Kernel>
+template <typename Visit>
+void GalerkinSolver<Dim, Kernel>::for_fluid_near(std::size_t i, const Visit& visit) const {
+  if (by_groups_)
+    search_.groups().for_fluid_near_particle(i, visit);
+  else
+    for (const std::uint32_t k : search_.fluid_near_fluid(i)) visit(k);
 }
 
 // Buffers move as they are told; what they do to the fluid is counted. Of the energy of the fluid i they

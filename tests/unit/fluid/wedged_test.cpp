@@ -25,7 +25,7 @@ class Box {
   // Whether fluid there is a film; `mirrors` are sides besides the floor.
   bool holds(double x, double y, std::span<const Plane<2>> mirrors = {}) const {
     const BoundaryParticles<2> boundary = placed();
-    return is_wedged<2>(Model<2>(scene_.setup), Vec<2>(x, y), all(boundary), boundary, mirrors);
+    return film_speed<2>(Model<2>(scene_.setup), Vec<2>(x, y), all(boundary), boundary, mirrors).has_value();
   }
   // Whether fluid there is behind a surface.
   bool has_inside(double x, double y) const {
