@@ -125,7 +125,7 @@ void BackgroundCells<Dim>::find_stress(const NeighborSearch<Dim>& search,
   for (const std::uint32_t w : search.boundary_near_fluid(q.owner))
     add(boundary.node()[w], boundary.node()[w].rho);
   const Fit<Dim> f = fit(moments, floor_);
-  const double at_q = f.floored ? rho / moments.m0 : f.a * rho + f.g.dot(rho_x);
+  const double at_q = f.floored ? rho / moments.m0 : shape_constant(f) * rho + f.g.dot(rho_x);
   Mat<Dim> sigma = -eos_.pressure(at_q) * Mat<Dim>::Identity();
   if (!fluid.stress.empty() && !f.floored) sigma += shear(search, boundary, fluid, f, q);
   q.s = q.weight * (sigma * f.g);
@@ -138,9 +138,10 @@ Mat<Dim> BackgroundCells<Dim>::shear(const NeighborSearch<Dim>& search,
                                      const BoundaryParticles<Dim>& boundary, const Particles<Dim>& fluid,
                                      const Fit<Dim>& f, const Point& q) const {
   Mat<Dim> sum = Mat<Dim>::Zero();
+  const double a = shape_constant(f);
   const auto add = [&](const Node<Dim>& j, const Mat<Dim>& stress) {
     const Vec<Dim> x_jq = j.x - q.x;
-    sum += j.volume * kernel_.value(x_jq) * (f.a + f.g.dot(x_jq)) * stress;
+    sum += j.volume * kernel_.value(x_jq) * (a + f.g.dot(x_jq)) * stress;
   };
   add(fluid.node[q.owner], fluid.stress[q.owner]);
   for (const std::uint32_t j : search.fluid_near_fluid(q.owner))

@@ -103,10 +103,10 @@ typename BoundaryForces<Dim>::Pushed BoundaryForces<Dim>::pushed(const NeighborS
     Q += VW * (predicted_[i] - predicted_[j]) * x_ij.transpose();
   }
   const Fit<Dim> f = fit(moments, floor_);
-  result.a = f.a;
+  result.a = shape_constant(f);
   result.g = f.g;
-  result.velocity = predicted_[j] + f.a * P + Q * f.g;
-  result.offset = f.a * moments.m1 + moments.m2 * f.g;
+  result.velocity = predicted_[j] + result.a * P + Q * f.g;
+  result.offset = result.a * moments.m1 + moments.m2 * f.g;
   for (const std::uint32_t k : near) result.force += force(x_j, result, boundary, k);
   return result;
 }

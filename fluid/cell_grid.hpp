@@ -15,8 +15,8 @@ namespace sluice::fluid {
 // Cubic cells over a box; items are filed by cell with a counting sort and by x within a cell. Cells are
 // numbered row by row along x, to and fro, so that the cells of a row are consecutive, a neighbourhood is a
 // few contiguous ranges, and items that follow each other are near each other, at the ends of rows too. Large
-// grids in space are divided into columns along z, to and fro likewise: what the neighbourhoods of a layer
-// share is still in the cache when the next one comes.
+// grids are divided into columns along the last axis, to and fro likewise: what the neighbourhoods of a row
+// or a layer share is still in the cache when the next one comes.
 template <int Dim>
 class CellGrid {
  public:
@@ -150,9 +150,9 @@ class CellGrid {
     }
   }
 
-  // Largest width of a column, in cells. In space what the neighbourhood of a layer of it takes from sweep 1
-  // fits into half a megabyte of cache; in the plane rows of a million particles do, and columns only cost.
-  static constexpr std::int64_t kWidth = Dim == 2 ? std::int64_t{1} << 32 : 8;
+  // Largest width of a column, in cells: what the neighbourhood of a row of it, or in space of a layer, takes
+  // from the sweeps fits into half a megabyte of cache.
+  static constexpr std::int64_t kWidth = Dim == 2 ? 64 : 8;
 
   double cell_;
   Vec<Dim> low_ = Vec<Dim>::Zero();

@@ -45,7 +45,8 @@ template <int Dim, bool kMasked>
 HWY_INLINE void gather_fluid(const LaneModel<Dim>& model, const NodeLanes<Dim>& group,
                              const ForceLanes<Dim>& lanes, std::size_t turn,
                              std::span<const std::uint32_t> near, const std::uint8_t* mask,
-                             const Node<Dim>* node, const Source<Dim>* source, ForceSums<Dim>& sums) {
+                             const Particles<Dim>& particles, ForceSums<Dim>& sums) {
+  const Node<Dim>* node = particles.node.data();
   const Wendland kernel(model.kernel);
   const Vecs<Dim> x = load(group.x, turn), v = load(group.v, turn), grad_rho = load(lanes.grad_rho, turn);
   const Vecs<Dim*(Dim + 1) / 2> strain = load(lanes.strain, turn);
@@ -65,7 +66,8 @@ HWY_INLINE void gather_fluid(const LaneModel<Dim>& model, const NodeLanes<Dim>& 
   Ahead<Dim> next = look(0);
   for (std::size_t n = 0; n < near.size(); ++n) {
     const Node<Dim>& k = node[near[n]];
-    const Source<Dim>& from = source[near[n]];
+    const Source<Dim>& from = particles.source[near[n]];
+    const FlowGradients<Dim>& flow = particles.gradients[near[n]];
     const Vecs<Dim> x_ik = next.x_ik;
     const V per_r2 = next.per_r2;
     V W, F;
@@ -85,13 +87,13 @@ HWY_INLINE void gather_fluid(const LaneModel<Dim>& model, const NodeLanes<Dim>& 
       flux[a] = set(from.s[a]);
       const V v_ik = v[a] - set(k.v[a]);
       v_left[a] = v_ik + v_ik;
-      rho_left = hn::MulAdd(grad_rho[a] + set(from.grad_rho[a]), x_ik[a], rho_left);
+      rho_left = hn::MulAdd(grad_rho[a] + set(flow.grad_rho[a]), x_ik[a], rho_left);
     }
     SLUICE_UNROLL
     for (int ab = 0; ab < Dim * Dim; ++ab) {
       const int a = ab / Dim, b = ab % Dim;
       flux[a] = hn::MulAdd(set(from.S(a, b)), x_ik[b], flux[a]);
-      v_left[a] = hn::NegMulAdd(strain[sym<Dim>(a, b)] + set(from.strain(a, b)), x_ik[b], v_left[a]);
+      v_left[a] = hn::NegMulAdd(strain[sym<Dim>(a, b)] + set(flow.strain(a, b)), x_ik[b], v_left[a]);
     }
     const V VF = set(k.volume) * F;
     const V viscous = VF * dot(v_left, x_ik) * per_r2;
@@ -145,16 +147,13 @@ template <int Dim>
 HWY_INLINE void forces(const LaneModel<Dim>& model, const NodeLanes<Dim>& group, const NearGroup& fluid,
                        const CloseGroup& close, const Particles<Dim>& particles, const NearGroup& boundary,
                        const BoundaryParticles<Dim>& walls, ForceLanes<Dim>& lanes) {
-  const Node<Dim>* node = particles.node.data();
-  const Source<Dim>* source = particles.source.data();
   for (std::size_t turn = 0; turn < kGroup; turn += kLanes) {
     ForceSums<Dim> sums;
     sums.clear();
     if (fluid.lanes == nullptr)
-      gather_fluid<Dim, false>(model, group, lanes, turn, close.of(turn / kLanes), nullptr, node, source,
-                               sums);
+      gather_fluid<Dim, false>(model, group, lanes, turn, close.of(turn / kLanes), nullptr, particles, sums);
     else
-      gather_fluid<Dim, true>(model, group, lanes, turn, fluid.index, fluid.lanes, node, source, sums);
+      gather_fluid<Dim, true>(model, group, lanes, turn, fluid.index, fluid.lanes, particles, sums);
     gather_boundary<Dim>(model, group, turn, boundary, walls, sums);
     const V volume = load(group.volume, turn), W0 = set(Wendland::value_factor(model.kernel));
     const double slope = Wendland::slope_factor(model.kernel);

@@ -65,11 +65,11 @@ template <int Dim, typename Kernel = WendlandC2<Dim>>
 class ForceSweep {
  public:
   ForceSweep(const Model<Dim, Kernel>& model, const Particles<Dim>& fluid, std::size_t i)
-      : model_(model), fluid_(fluid), i_(i), node_(fluid.node[i]), source_(fluid.source[i]) {
+      : model_(model), fluid_(fluid), i_(i), node_(fluid.node[i]), flow_(fluid.gradients[i]) {
     if constexpr (Rule::kHasPoints)
       internal_ = Rule::point_flux(model, fluid, i, Vec<Dim>::Zero());
     else
-      internal_ = Rule::own_flux(source_, model.kernel.at_zero());
+      internal_ = Rule::own_flux(fluid.source[i], model.kernel.at_zero());
   }
 
   void gather_fluid(std::span<const std::uint32_t> neighbors) {
@@ -95,7 +95,7 @@ class ForceSweep {
 
   void add_fluid(std::size_t index) {
     const Node<Dim>& k = fluid_.node[index];
-    const Source<Dim>& from = fluid_.source[index];
+    const FlowGradients<Dim>& flow = fluid_.gradients[index];
     const Vec<Dim> x_ik = node_.x - k.x;
     const double r2 = x_ik.squaredNorm();
     const ValueAndSlope weight = model_.kernel.value_and_slope(x_ik);
@@ -114,19 +114,19 @@ class ForceSweep {
     //   alpha h c0 rho0 V_i V_k [v_ki . x_ki - x_ki . (d_i + d_k)/2 x_ki] / r^2 F x_ki
     const double VF = k.volume * F;
     const double unexplained =
-        (node_.v - k.v).dot(x_ik) - 0.5 * x_ik.dot((source_.strain + from.strain) * x_ik);
+        (node_.v - k.v).dot(x_ik) - 0.5 * x_ik.dot((flow_.strain + flow.strain) * x_ik);
     viscous_ -= VF * unexplained / (r2 + model_.tiny_r2) * x_ik;
 
     // Density diffusion on what a linear density field does not explain (M. Antuono et al., Comput. Phys.
     // Commun. 181, 2010, eq. 6): 2 delta h c0 sum_k V_k F [rho_ki - (grad rho_i + grad rho_k)/2 . x_ki]
-    diffusion_ += VF * (k.rho - node_.rho + 0.5 * (source_.grad_rho + from.grad_rho).dot(x_ik));
+    diffusion_ += VF * (k.rho - node_.rho + 0.5 * (flow_.grad_rho + flow.grad_rho).dot(x_ik));
   }
 
   const Model<Dim, Kernel>& model_;
   const Particles<Dim>& fluid_;
   std::size_t i_;
   const Node<Dim>& node_;
-  const Source<Dim>& source_;
+  const FlowGradients<Dim>& flow_;
   Vec<Dim> internal_ = Vec<Dim>::Zero();
   Vec<Dim> traction_ = Vec<Dim>::Zero();
   Vec<Dim> viscous_ = Vec<Dim>::Zero();

@@ -55,12 +55,15 @@ template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::set_stress(std::size_t i) {
   using Rule = Operator<Dim, Kernel>;
   fluid_.pressure[i] = model_.eos.pressure(fluid_.node[i].rho);
+  if constexpr (Rule::kIsDefault)
+    if (fluid_.stress.empty())
+      return set_source<Dim>(-quadrature_volume(i) * fluid_.pressure[i], fluid_.fit[i], fluid_.source[i]);
   Mat<Dim> sigma = -fluid_.pressure[i] * Mat<Dim>::Identity();
   if constexpr (Rule::kIsIsobaric) sigma.setZero();
   if (!fluid_.stress.empty() && !fluid_.has_several_liquids()) {
     // Where G is not the exact inverse, a shear stress would exert a moment: spray has none.
     fluid_.stress[i] =
-        fluid_.fit[i].floored ? Mat<Dim>::Zero() : viscous_stress<Dim>(model_.mu, fluid_.source[i].strain);
+        fluid_.fit[i].floored ? Mat<Dim>::Zero() : viscous_stress<Dim>(model_.mu, fluid_.gradients[i].strain);
     sigma += fluid_.stress[i];
   }
   if constexpr (Rule::kIsDefault)
@@ -83,7 +86,7 @@ void GalerkinSolver<Dim, Kernel>::complete_stress() {
   if (fluid_.has_several_liquids() && !fluid_.stress.empty()) compute_own_stress();
   if (surface_tension_.is_used()) surface_tension_.compute(search_, boundary_, parallel_, fluid_);
   if (background_cells_.is_used()) background_cells_.compute(search_, boundary_, parallel_, fluid_);
-  search_.halo().refresh_sources(fluid_);
+  search_.halo().refresh_sources(fluid_, parallel_);
 }
 
 // Sweep 2.

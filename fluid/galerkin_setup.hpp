@@ -75,6 +75,7 @@ Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos) {
   if (setup.has_viscous_stress()) fluid.stress.assign(in_use, Mat<Dim>::Zero());
   fluid.fit.resize(n);
   fluid.source.resize(n);
+  fluid.gradients.resize(n);
   if (setup.formulation.approximation == Approximation::mls_full_derivative)
     fluid.slope_source.resize(in_use);
   if (setup.formulation.quadrature == Quadrature::stress_points)

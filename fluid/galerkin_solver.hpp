@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <type_traits>
 
 #include "fluid/background_cells.hpp"
@@ -66,7 +67,8 @@ class GalerkinSolver final : public Solver {
   // drift, and what follows from the new positions but the gradients
   void move(double dt, std::span<const Kinematics> bodies);
   void shift_and_place(double dt, std::span<const Kinematics> bodies);
-  void place(double dt, std::span<const Kinematics> bodies);
+  // `moved2` is how far the fluid has moved since the lists were made, squared, if that is known [m^2].
+  void place(double dt, std::span<const Kinematics> bodies, std::optional<double> moved2 = {});
   // From the density on: the forces, with which the volumes go on to the next step.
   void evaluate_forces();
   void evaluate();
@@ -80,7 +82,7 @@ class GalerkinSolver final : public Solver {
   void drift(double dt);
   void drift(std::size_t i, double dt) { fluid_.node[i].x += dt * fluid_.node[i].v; }
   void move_boundary(double dt, std::span<const Kinematics> bodies);
-  void find_neighbors();
+  void find_neighbors(std::optional<double> moved2 = {});
   void hold_openings(double dt);
   void mirror_velocities();
   void compute_gradients();

@@ -67,16 +67,21 @@ void GalerkinSolver<Dim, Kernel>::step(double dt, std::span<const Kinematics> bo
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::kick_drift_kick(double dt, std::span<const Kinematics> bodies) {
   const std::size_t n = fluid_.size();
+  std::optional<double> moved2;
   if (interpolated_motion_ > 0.0) {
     kick(0.5 * dt);
     drift(dt);
   } else {
-    parallel_.for_each(n, [&](std::size_t i) {
+    moved2 = parallel_.max(n, [&](std::size_t i) {
       kick(i, 0.5 * dt);
       drift(i, dt);
+      return search_.moved2(fluid_, i);
     });
   }
-  shift_and_place(dt, bodies);
+  if (shifting_.is_used())
+    shift_and_place(dt, bodies);
+  else
+    place(dt, bodies, moved2);
   compute_gradients();
   if (openings_.is_used()) return finish_with_openings(dt);
   parallel_.for_each(n, [&](std::size_t i) {
@@ -116,19 +121,21 @@ void GalerkinSolver<Dim, Kernel>::shift_and_place(double dt, std::span<const Kin
 }
 
 template <int Dim, typename Kernel>
-void GalerkinSolver<Dim, Kernel>::place(double dt, std::span<const Kinematics> bodies) {
+void GalerkinSolver<Dim, Kernel>::place(double dt, std::span<const Kinematics> bodies,
+                                        std::optional<double> moved2) {
   move_boundary(dt, bodies);
   openings_.advance(dt);
-  find_neighbors();
+  find_neighbors(moved2);
   openings_.impose_velocity(dt, fluid_, parallel_);
   search_.halo().refresh_nodes(fluid_);
   mirror_velocities();
 }
 
 template <int Dim, typename Kernel>
-void GalerkinSolver<Dim, Kernel>::find_neighbors() {
+void GalerkinSolver<Dim, Kernel>::find_neighbors(std::optional<double> moved2) {
   const Stopwatch watch(times_.search);
-  if (!search_.is_stale(fluid_, boundary_, parallel_)) return;
+  if (!moved2) moved2 = search_.moved2(fluid_, parallel_);
+  if (!search_.is_stale(*moved2, boundary_)) return;
   openings_.exchange(fluid_);
   search_.rebuild(fluid_, boundary_, parallel_);
   if (openings_.is_used()) openings_.list(fluid_);

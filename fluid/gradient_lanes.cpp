@@ -11,6 +11,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace sluice::fluid::HWY_NAMESPACE {
 
+// Sums over the neighbours j, of their velocities and densities themselves: what belongs to those of the
+// particle comes off at the end.
 template <int Dim>
 struct GradientSums {
   V m0, p;
@@ -24,64 +26,88 @@ struct GradientSums {
     m2 = zeros<Dim*(Dim + 1) / 2>();
     Q = zeros<Dim * Dim>();
   }
+
+  HWY_INLINE void add(const Node<Dim>& j, const Vecs<Dim>& x, V VW) {
+    m0 = m0 + VW;
+    Vecs<Dim> x_ji, VWx;
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) {
+      x_ji[a] = set(j.x[a]) - x[a];
+      VWx[a] = VW * x_ji[a];
+      m1[a] = m1[a] + VWx[a];
+      P[a] = hn::MulAdd(VW, set(j.v[a]), P[a]);
+    }
+    SLUICE_UNROLL
+    for (int ab = 0; ab < Dim * Dim; ++ab) {
+      const int a = ab / Dim, b = ab % Dim;
+      Q[ab] = hn::MulAdd(VWx[b], set(j.v[a]), Q[ab]);
+      if (a <= b) m2[sym<Dim>(a, b)] = hn::MulAdd(VWx[a], x_ji[b], m2[sym<Dim>(a, b)]);
+    }
+    p = hn::MulAdd(VW, set(j.rho), p);
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) q[a] = hn::MulAdd(VWx[a], set(j.rho), q[a]);
+  }
+
+  // Relative to the particle's v and rho.
+  HWY_INLINE void shift(const Vecs<Dim>& v, V rho) {
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) P[a] = hn::NegMulAdd(v[a], m0, P[a]);
+    SLUICE_UNROLL
+    for (int ab = 0; ab < Dim * Dim; ++ab) {
+      const int a = ab / Dim, b = ab % Dim;
+      Q[ab] = hn::NegMulAdd(v[a], m1[b], Q[ab]);
+    }
+    p = hn::NegMulAdd(rho, m0, p);
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) q[a] = hn::NegMulAdd(rho, m1[a], q[a]);
+  }
+
+  // By the kernel's constant, which the sums still lack.
+  HWY_INLINE void scale(V factor) {
+    m0 = m0 * factor;
+    p = p * factor;
+    SLUICE_UNROLL
+    for (int a = 0; a < Dim; ++a) {
+      m1[a] = m1[a] * factor;
+      P[a] = P[a] * factor;
+      q[a] = q[a] * factor;
+    }
+    for (V& m : m2.a) m = m * factor;
+    for (V& product : Q.a) product = product * factor;
+  }
 };
 
-// Where a neighbour stands, found two neighbours ahead: all else of a pair waits for the root, and so does
-// what follows a wrong guess of whether it is close.
-template <int Dim>
-struct Ahead {
-  Vecs<Dim> x_ji;
-  V d;  // from the edge of the support
-};
+// V W of the neighbours `first` and on, kChunk of them, as many as there are. With kClose what is close is
+// written to `close`, and V W of that alone: everything is written, and kept where it counts. A branch there
+// would be guessed wrong once in five.
+template <int Dim, bool kMasked, bool kClose>
+HWY_INLINE std::size_t weigh(const Wendland& kernel, const Vecs<Dim>& x, std::size_t turn,
+                             const NearNodes<Dim>& near, std::size_t first, std::uint32_t* close, V* VW) {
+  const std::size_t count = std::min(kChunk, near.near.index.size() - first);
+  std::size_t kept = 0;
+  for (std::size_t k = first; k < first + count; ++k) {
+    const Node<Dim>& j = near.node[near.near.index[k]];
+    const V d = kernel.from_edge(distance2(x, j));
+    VW[kept] = set(j.volume) * kernel.value_at(d);
+    if constexpr (kMasked) VW[kept] = hn::IfThenElseZero(lanes_of(near.near.lanes, k, turn), VW[kept]);
+    if constexpr (kClose) close[kept] = near.near.index[k];
+    kept += kClose && hn::AllFalse(D(), hn::Gt(d, hn::Zero(D()))) ? 0 : 1;
+  }
+  return kept;
+}
 
 // Writes what is close to `close` with kClose, and returns where that ends.
 template <int Dim, bool kMasked, bool kClose>
 HWY_INLINE std::uint32_t* gather(const Wendland& kernel, const NodeLanes<Dim>& group, std::size_t turn,
                                  const NearNodes<Dim>& near, std::uint32_t* close, GradientSums<Dim>& sums) {
-  const Vecs<Dim> x = load(group.x, turn), v = load(group.v, turn);
-  const V rho = load(group.rho, turn);
+  const Vecs<Dim> x = load(group.x, turn);
   GradientSums<Dim> s = sums;
-  const std::size_t count = near.near.index.size();
-  if (count == 0) return close;
-  const auto look = [&](std::size_t k) HWY_ATTR {
-    const Node<Dim>& j = near.node[near.near.index[k]];
-    Ahead<Dim> ahead;
-    SLUICE_UNROLL
-    for (int a = 0; a < Dim; ++a) ahead.x_ji[a] = set(j.x[a]) - x[a];
-    ahead.d = kernel.from_edge(dot(ahead.x_ji, ahead.x_ji));
-    return ahead;
-  };
-  Ahead<Dim> next = look(0), second = look(count > 1 ? 1 : 0);
-  for (std::size_t k = 0; k < count; ++k) {
-    const Node<Dim>& j = near.node[near.near.index[k]];
-    const Vecs<Dim> x_ji = next.x_ji;
-    const V d = next.d;
-    next = second;
-    second = look(k + 2 < count ? k + 2 : k);
-    if constexpr (kClose) {
-      if (hn::AllFalse(D(), hn::Gt(d, hn::Zero(D())))) continue;
-      *close++ = near.near.index[k];
-    }
-    V VW = set(j.volume) * kernel.value_at(d);
-    if constexpr (kMasked) VW = hn::IfThenElseZero(lanes_of(near.near.lanes, k, turn), VW);
-    s.m0 = s.m0 + VW;
-    const V rho_ji = set(j.rho) - rho;
-    s.p = hn::MulAdd(VW, rho_ji, s.p);
-    Vecs<Dim> VWx, v_ji;
-    SLUICE_UNROLL
-    for (int a = 0; a < Dim; ++a) {
-      VWx[a] = VW * x_ji[a];
-      v_ji[a] = set(j.v[a]) - v[a];
-      s.m1[a] = s.m1[a] + VWx[a];
-      s.P[a] = hn::MulAdd(VW, v_ji[a], s.P[a]);
-      s.q[a] = hn::MulAdd(VWx[a], rho_ji, s.q[a]);
-    }
-    SLUICE_UNROLL
-    for (int ab = 0; ab < Dim * Dim; ++ab) {
-      const int a = ab / Dim, b = ab % Dim;
-      s.Q[ab] = hn::MulAdd(v_ji[a], VWx[b], s.Q[ab]);
-      if (a <= b) s.m2[sym<Dim>(a, b)] = hn::MulAdd(VWx[a], x_ji[b], s.m2[sym<Dim>(a, b)]);
-    }
+  V VW[kChunk];
+  for (std::size_t first = 0; first < near.near.index.size(); first += kChunk) {
+    const std::size_t count = weigh<Dim, kMasked, kClose>(kernel, x, turn, near, first, close, VW);
+    const std::uint32_t* index = kClose ? close : near.near.index.data() + first;
+    for (std::size_t k = 0; k < count; ++k) s.add(near.node[index[k]], x, VW[k]);
+    if constexpr (kClose) close += count;
   }
   sums = s;
   return close;
@@ -94,21 +120,6 @@ HWY_INLINE void gather(const Wendland& kernel, const NodeLanes<Dim>& group, std:
     gather<Dim, false, false>(kernel, group, turn, near, nullptr, sums);
   else
     gather<Dim, true, false>(kernel, group, turn, near, nullptr, sums);
-}
-
-// By the kernel's constant, which the sums still lack.
-template <int Dim>
-HWY_INLINE void scale(V factor, GradientSums<Dim>& s) {
-  s.m0 = s.m0 * factor;
-  s.p = s.p * factor;
-  SLUICE_UNROLL
-  for (int a = 0; a < Dim; ++a) {
-    s.m1[a] = s.m1[a] * factor;
-    s.P[a] = s.P[a] * factor;
-    s.q[a] = s.q[a] * factor;
-  }
-  for (V& m : s.m2.a) m = m * factor;
-  for (V& Q : s.Q.a) Q = Q * factor;
 }
 
 // The inverse and whether all eigenvalues are above `floor`, as in moments.hpp.
@@ -154,6 +165,34 @@ void set_floored(const LaneSym<Dim>& C, double floor, std::size_t lane, Gradient
   out.floored[lane] = floored;
 }
 
+// The gradients that follow from the fit.
+template <int Dim>
+HWY_INLINE void finish_gradients(const GradientSums<Dim>& s, const Vecs<Dim>& g,
+                                 const Vecs<Dim*(Dim + 1) / 2>& G, std::size_t turn,
+                                 GradientLanes<Dim>& out) {
+  Vecs<Dim> grad_rho = times<Dim>(G, s.q);
+  Vecs<Dim * Dim> L;
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a) {
+    grad_rho[a] = hn::MulAdd(s.p, g[a], grad_rho[a]);
+    Vecs<Dim> row;
+    for (int b = 0; b < Dim; ++b) row[b] = s.Q[a * Dim + b];
+    const Vecs<Dim> QG = times<Dim>(G, row);
+    for (int b = 0; b < Dim; ++b) L[a * Dim + b] = hn::MulAdd(s.P[a], g[b], QG[b]);
+  }
+  store(grad_rho, out.grad_rho, turn);
+  Vecs<Dim*(Dim + 1) / 2> strain;
+  V divergence = L[0];
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a) {
+    if (a > 0) divergence = divergence + L[a * Dim + a];
+    strain[sym<Dim>(a, a)] = L[a * Dim + a];
+    for (int b = a + 1; b < Dim; ++b) strain[sym<Dim>(a, b)] = set(0.5) * (L[a * Dim + b] + L[b * Dim + a]);
+  }
+  store(strain, out.strain, turn);
+  store(divergence, out.divergence, turn);
+}
+
 template <int Dim>
 HWY_INLINE void finish(const GradientSums<Dim>& s, double moment_floor, std::size_t turn,
                        GradientLanes<Dim>& out) {
@@ -185,28 +224,7 @@ HWY_INLINE void finish(const GradientSums<Dim>& s, double moment_floor, std::siz
   for (int a = 0; a < Dim; ++a) g[a] = hn::Neg(g[a]);
   store(s.m0, out.m0, turn);
   store(g, out.g, turn);
-  store((set(1.0) - dot(s.m1, g)) * per_m0, out.a, turn);
-  Vecs<Dim> grad_rho = times<Dim>(G, s.q);
-  Vecs<Dim * Dim> L;
-  SLUICE_UNROLL
-  for (int a = 0; a < Dim; ++a) {
-    grad_rho[a] = hn::MulAdd(s.p, g[a], grad_rho[a]);
-    Vecs<Dim> row;
-    for (int b = 0; b < Dim; ++b) row[b] = s.Q[a * Dim + b];
-    const Vecs<Dim> QG = times<Dim>(G, row);
-    for (int b = 0; b < Dim; ++b) L[a * Dim + b] = hn::MulAdd(s.P[a], g[b], QG[b]);
-  }
-  store(grad_rho, out.grad_rho, turn);
-  Vecs<Dim*(Dim + 1) / 2> strain;
-  V divergence = L[0];
-  SLUICE_UNROLL
-  for (int a = 0; a < Dim; ++a) {
-    if (a > 0) divergence = divergence + L[a * Dim + a];
-    strain[sym<Dim>(a, a)] = L[a * Dim + a];
-    for (int b = a + 1; b < Dim; ++b) strain[sym<Dim>(a, b)] = set(0.5) * (L[a * Dim + b] + L[b * Dim + a]);
-  }
-  store(strain, out.strain, turn);
-  store(divergence, out.divergence, turn);
+  finish_gradients<Dim>(s, g, G, turn, out);
 }
 
 template <int Dim>
@@ -223,7 +241,8 @@ HWY_INLINE void gather_all(const LaneModel<Dim>& model, const NodeLanes<Dim>& gr
     else
       gather<Dim, true, false>(kernel, group, turn, fluid, nullptr, sums);
     gather<Dim>(kernel, group, turn, boundary, sums);
-    scale<Dim>(set(Wendland::value_factor(model.kernel)), sums);
+    sums.shift(load(group.v, turn), load(group.rho, turn));
+    sums.scale(set(Wendland::value_factor(model.kernel)));
     finish<Dim>(sums, model.moment_floor, turn, out);
   }
 }

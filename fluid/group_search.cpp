@@ -50,7 +50,7 @@ std::span<const std::uint32_t> of_particle(const GroupList& list, std::size_t i,
 template <int Dim>
 void GroupSearch<Dim>::rebuild(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
                                const SearchGrids<Dim>& grids, const Visibility<Dim>& visibility, double reach,
-                               double cell, const Parallel& parallel) {
+                               const Parallel& parallel) {
   const auto fluid_count = static_cast<std::uint32_t>(fluid.size());
   const auto append_fluid = [&](const Surroundings<Dim>& near, std::vector<std::uint32_t>& index) {
     const auto append_row = [&](std::uint32_t first, std::uint32_t last) {
@@ -77,14 +77,13 @@ void GroupSearch<Dim>::rebuild(const Particles<Dim>& fluid, const BoundaryPartic
                            [&](std::size_t i) { return i == j || visibility.fluid_sees_fluid(i, j); });
       });
 
-  CellGrid<Dim> walls(boundary.node(), cell);
-  walls.file(boundary.node());
   boundary_.build(
       group_count(fluid.size()), parallel,
       [&](std::size_t group, std::vector<std::uint32_t>& index) {
         const Surroundings<Dim> near(fluid.node, fluid.size(), group, reach);
-        walls.for_rows_in(near.low, near.high, [&](std::uint32_t first, std::uint32_t last) {
-          append_near<Dim>(near.x, reach, boundary.node().data(), first, last, walls.item().data(), index);
+        grids.boundary.for_rows_in(near.low, near.high, [&](std::uint32_t first, std::uint32_t last) {
+          append_near<Dim>(near.x, reach, boundary.node().data(), first, last, grids.boundary.item().data(),
+                           index);
         });
       },
       near_plate,

@@ -12,22 +12,23 @@
 
 namespace sluice::fluid {
 
-// The grids of a search: of the fluid, whose particles lie in the order of its items, and of the images
-// behind them, likewise.
+// The grids of a search: of the fluid, whose particles lie in the order of its items, of the images behind
+// them, likewise, and of the boundary.
 template <int Dim>
 struct SearchGrids {
   const CellGrid<Dim>& fluid;
   const CellGrid<Dim>& images;
   bool has_images;
+  const CellGrid<Dim>& boundary;
 };
 
 // Lists of what is near groups of fluid and of boundary particles.
 template <int Dim>
 class GroupSearch {
  public:
-  // Finds what is within `reach` [m]. `cell` is the edge of the cells that sort the boundary [m].
+  // Finds what is within `reach` [m].
   void rebuild(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
-               const SearchGrids<Dim>& grids, const Visibility<Dim>& visibility, double reach, double cell,
+               const SearchGrids<Dim>& grids, const Visibility<Dim>& visibility, double reach,
                const Parallel& parallel);
 
   // Fluid near every group of fluid, its own particles among it.

@@ -90,13 +90,12 @@ void GroupStages<Dim>::compute_gradients(const BoundaryParticles<Dim>& boundary,
       const std::size_t l = i % kGroup;
       Fit<Dim>& fit = fluid.fit[i];
       fit.m0 = lanes.m0[l];
-      fit.a = lanes.a[l];
       fit.floored = lanes.floored[l];
       take<Dim>(lanes.g, l, fit.g);
       take<Dim>(lanes.G, l, fit.G);
-      take<Dim>(lanes.grad_rho, l, fluid.source[i].grad_rho);
-      take<Dim>(lanes.strain, l, fluid.source[i].strain);
       fluid.divergence[i] = lanes.divergence[l];
+      take<Dim>(lanes.grad_rho, l, fluid.gradients[i].grad_rho);
+      take<Dim>(lanes.strain, l, fluid.gradients[i].strain);
     }
   });
 }
@@ -132,11 +131,11 @@ void GroupStages<Dim>::compute_forces(const BoundaryParticles<Dim>& boundary,
   for_fluid_groups(fluid.size(), [&](std::size_t group) {
     ForceLanes<Dim> lanes;
     for (std::size_t l = 0; l < kGroup; ++l) {
-      const Source<Dim>& source = fluid.source[std::min(group * kGroup + l, fluid.size() - 1)];
-      put<Dim>(source.grad_rho, l, lanes.grad_rho);
+      const FlowGradients<Dim>& flow = fluid.gradients[std::min(group * kGroup + l, fluid.size() - 1)];
+      put<Dim>(flow.grad_rho, l, lanes.grad_rho);
       std::size_t k = 0;
       for (int a = 0; a < Dim; ++a)
-        for (int b = a; b < Dim; ++b) lanes.strain[k++][l] = source.strain(a, b);
+        for (int b = a; b < Dim; ++b) lanes.strain[k++][l] = flow.strain(a, b);
     }
     gather_forces<Dim>(model_, node_lanes(fluid.node, fluid.size(), group),
                        search_.fluid_near_fluid().of(group), close_.of(group), fluid,

@@ -65,8 +65,8 @@ void Halo<Dim>::remove(Particles<Dim>& fluid) {
 
 // Axis by axis, images of images included, which fills the corners.
 template <int Dim>
-std::vector<Node<Dim>> Halo<Dim>::find(const Particles<Dim>& fluid) {
-  std::vector<Node<Dim>> nodes;
+std::vector<Node<Dim>> Halo<Dim>::find(const Particles<Dim>& fluid,
+                                       const std::function<bool(const Vec<Dim>&)>& needed) {
   image_.clear();
   const auto add = [&](const Side& side, const Image& original) {
     const Node<Dim> node = original.node(fluid.node[original.of]);
@@ -75,7 +75,6 @@ std::vector<Node<Dim>> Halo<Dim>::find(const Particles<Dim>& fluid) {
     image.flip[side.axis] = side.flip;
     image.shift[side.axis] = side.shift;
     image_.push_back(image);
-    nodes.push_back(image.node(fluid.node[image.of]));
   };
   std::size_t other_axes = 0;
   for (std::size_t s = 0; s < sides_.size(); ++s) {
@@ -83,7 +82,22 @@ std::vector<Node<Dim>> Halo<Dim>::find(const Particles<Dim>& fluid) {
     for (std::uint32_t i = 0; i < fluid.size(); ++i) add(sides_[s], {i, Vec<Dim>::Ones(), Vec<Dim>::Zero()});
     for (std::size_t k = 0; k < other_axes; ++k) add(sides_[s], Image(image_[k]));
   }
+  std::vector<Node<Dim>> nodes;
+  std::vector<Image> kept;
+  for (const Image& image : image_) {
+    const Node<Dim> node = image.node(fluid.node[image.of]);
+    if (!needed(node.x)) continue;
+    nodes.push_back(node);
+    kept.push_back(image);
+  }
+  image_.swap(kept);
   return nodes;
+}
+
+template <int Dim>
+bool Halo<Dim>::is_within(const Vec<Dim>& x, double reach) const {
+  return std::all_of(sides_.begin(), sides_.end(),
+                     [&](const Side& side) { return side.distance(x) > -reach; });
 }
 
 template <int Dim>
@@ -96,6 +110,7 @@ void Halo<Dim>::append(Particles<Dim>& fluid, const std::vector<std::uint32_t>& 
   fluid.pressure.resize(all);
   fluid.fit.resize(all);
   fluid.source.resize(all);
+  fluid.gradients.resize(all);
   if (!fluid.stress.empty()) fluid.stress.resize(all);
   if (!fluid.slope_source.empty()) fluid.slope_source.resize(all);
   if (!fluid.point_source.empty()) fluid.point_source.resize(Particles<Dim>::kPoints * all);
@@ -124,8 +139,8 @@ void Halo<Dim>::refresh_fits(Particles<Dim>& fluid) const {
 }
 
 template <int Dim>
-void Halo<Dim>::refresh_sources(Particles<Dim>& fluid) const {
-  for (std::size_t k = 0; k < image_.size(); ++k) {
+void Halo<Dim>::refresh_sources(Particles<Dim>& fluid, const Parallel& parallel) const {
+  parallel.for_each(image_.size(), [&](std::size_t k) {
     const Image& image = image_[k];
     const std::size_t to = fluid.size() + k;
     fluid.node[to].rho = fluid.node[image.of].rho;
@@ -134,8 +149,9 @@ void Halo<Dim>::refresh_sources(Particles<Dim>& fluid) const {
     fluid.fit[to].g = image.vector(fluid.fit[image.of].g);
     fluid.fit[to].G = image.tensor(fluid.fit[image.of].G);
     const Source<Dim>& source = fluid.source[image.of];
-    fluid.source[to] = {image.vector(source.s), image.tensor(source.S), image.tensor(source.strain),
-                        image.vector(source.grad_rho)};
+    fluid.source[to] = {image.vector(source.s), image.tensor(source.S)};
+    const FlowGradients<Dim>& flow = fluid.gradients[image.of];
+    fluid.gradients[to] = {image.tensor(flow.strain), image.vector(flow.grad_rho)};
     if (!fluid.stress.empty()) fluid.stress[to] = image.tensor(fluid.stress[image.of]);
     if (fluid.has_several_liquids()) {
       const OwnLiquid<Dim>& own = fluid.own[image.of];
@@ -146,11 +162,11 @@ void Halo<Dim>::refresh_sources(Particles<Dim>& fluid) const {
       const SlopeSource<Dim>& slope = fluid.slope_source[image.of];
       fluid.slope_source[to] = {image.tensor(slope.sigma_V), slope.a, image.vector(slope.b)};
     }
-    if (fluid.point_source.empty()) continue;
+    if (fluid.point_source.empty()) return;
     constexpr std::size_t kPoints = Particles<Dim>::kPoints;
     for (std::size_t s = 0; s < kPoints; ++s)
       fluid.point_source[kPoints * to + s] = fluid.point_source[kPoints * image_[k].of + s];
-  }
+  });
 }
 
 template class Halo<2>;

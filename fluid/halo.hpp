@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "fluid/parallel.hpp"
 #include "fluid/particles.hpp"
 #include "fluid/setup.hpp"
 
@@ -31,9 +33,13 @@ class Halo {
   void wrap(Particles<Dim>& fluid);
   // What particles have left at mirrored sides by being taken for their images, since it was last asked for.
   Impulse take_impulse() { return std::exchange(impulse_, {}); }
-  // Removes the images, and makes them anew from the present positions. Returns their nodes.
+  // Removes the images, and makes them anew from the present positions, those that are `needed` where they
+  // stand. Returns their nodes.
   static void remove(Particles<Dim>& fluid);
-  std::vector<Node<Dim>> find(const Particles<Dim>& fluid);
+  std::vector<Node<Dim>> find(const Particles<Dim>& fluid,
+                              const std::function<bool(const Vec<Dim>&)>& needed);
+  // Whether a point is beyond the sides by `reach` [m] or less.
+  [[nodiscard]] bool is_within(const Vec<Dim>& x, double reach) const;
   // Appends the images that find() found, in the order given.
   void append(Particles<Dim>& fluid, const std::vector<std::uint32_t>& order);
 
@@ -45,7 +51,7 @@ class Halo {
   // Copies to the images what moved, and what sweep 1 and the stress left.
   void refresh_nodes(Particles<Dim>& fluid) const;
   void refresh_fits(Particles<Dim>& fluid) const;
-  void refresh_sources(Particles<Dim>& fluid) const;
+  void refresh_sources(Particles<Dim>& fluid, const Parallel& parallel) const;
 
   auto state() { return std::tie(image_); }
 

@@ -64,8 +64,21 @@ HWY_INLINE V dot(const Vecs<N>& a, const Vecs<N>& b) {
   return sum;
 }
 
+// Neighbours that are weighed at once, into a buffer that stays in the first cache: a weight waits for a
+// root, and sums that wait for it one by one would keep the next ones from starting.
+inline constexpr std::size_t kChunk = 64;
+
 // Loops over the components of vectors and matrices are unrolled whole, else they stay in memory.
 #define SLUICE_UNROLL HWY_UNROLL(9)
+
+// |x_j - x|^2.
+template <int Dim>
+HWY_INLINE V distance2(const Vecs<Dim>& x, const Node<Dim>& j) {
+  Vecs<Dim> x_ij;
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a) x_ij[a] = x[a] - set(j.x[a]);
+  return dot(x_ij, x_ij);
+}
 
 // Entry of a symmetric matrix held by rows.
 template <int Dim>

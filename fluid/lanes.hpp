@@ -79,7 +79,7 @@ std::size_t vectors_of_group();
 // masked.
 template <int Dim>
 struct GradientLanes {
-  Lanes m0, a, divergence;
+  Lanes m0, divergence;
   LaneVec<Dim> g, grad_rho;
   LaneSym<Dim> G, strain;
   std::array<bool, kGroup> floored;

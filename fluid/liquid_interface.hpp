@@ -39,9 +39,9 @@ class LiquidForceSweep {
         fluid_(fluid),
         i_(i),
         node_(fluid.node[i]),
-        source_(fluid.source[i]),
+        flow_(fluid.gradients[i]),
         liquid_(fluid.liquid_of(i)) {
-    internal_ = model.kernel.at_zero() * (source_.s + fluid.own[i].s);
+    internal_ = model.kernel.at_zero() * (fluid.source[i].s + fluid.own[i].s);
   }
 
   void gather_fluid(std::span<const std::uint32_t> neighbors) {
@@ -64,6 +64,7 @@ class LiquidForceSweep {
   void add_fluid(std::size_t k) {
     const Node<Dim>& node = fluid_.node[k];
     const Source<Dim>& from = fluid_.source[k];
+    const FlowGradients<Dim>& flow = fluid_.gradients[k];
     const Vec<Dim> x_ik = node_.x - node.x;
     const double r2 = x_ik.squaredNorm();
     const auto [W, F] = model_.kernel.value_and_slope(x_ik);
@@ -73,7 +74,7 @@ class LiquidForceSweep {
     if (fluid_.liquid[k] != fluid_.liquid[i_]) return add_other(k, x_ik, r2, VF);
     internal_ += W * (fluid_.own[k].s + fluid_.own[k].S * x_ik);
     pair_ += liquid_.pair_viscosity * damping(k, x_ik, r2, VF);
-    diffusion_ += VF * (node.rho - node_.rho + 0.5 * (source_.grad_rho + from.grad_rho).dot(x_ik));
+    diffusion_ += VF * (node.rho - node_.rho + 0.5 * (flow_.grad_rho + flow.grad_rho).dot(x_ik));
   }
 
   void add_other(std::size_t k, const Vec<Dim>& x_ik, double r2, double VF) {
@@ -86,7 +87,7 @@ class LiquidForceSweep {
   // Of the artificial viscosity, over its coefficient (force_sweep.hpp).
   [[nodiscard]] Vec<Dim> damping(std::size_t k, const Vec<Dim>& x_ik, double r2, double VF) const {
     const double unexplained = (node_.v - fluid_.node[k].v).dot(x_ik) -
-                               0.5 * x_ik.dot((source_.strain + fluid_.source[k].strain) * x_ik);
+                               0.5 * x_ik.dot((flow_.strain + fluid_.gradients[k].strain) * x_ik);
     return -node_.volume * VF * unexplained / (r2 + model_.tiny_r2) * x_ik;
   }
 
@@ -94,7 +95,7 @@ class LiquidForceSweep {
   const Particles<Dim>& fluid_;
   std::size_t i_;
   const Node<Dim>& node_;
-  const Source<Dim>& source_;
+  const FlowGradients<Dim>& flow_;
   const LiquidConstants& liquid_;
   Vec<Dim> internal_ = Vec<Dim>::Zero();
   Vec<Dim> pair_ = Vec<Dim>::Zero();

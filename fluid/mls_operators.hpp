@@ -31,7 +31,7 @@ struct DiffuseMls {
   static constexpr bool kIsDefault = true, kIsIsobaric = false, kHasSumOne = true, kHasPoints = false;
   struct Coefficients {};
 
-  static ShapeFunction<Dim> shape_function(const Fit<Dim>& fit) { return {fit.a, fit.g}; }
+  static ShapeFunction<Dim> shape_function(const Fit<Dim>& fit) { return {shape_constant(fit), fit.g}; }
 
   template <typename Kernel>
   static ValueAndSlope weight(const Kernel& kernel, const Vec<Dim>& x) {
@@ -97,7 +97,7 @@ struct FullMls : Sph<Dim> {
     Mat<Dim> D = Mat<Dim>::Zero();
   };
 
-  static ShapeFunction<Dim> shape_function(const Fit<Dim>& fit) { return {fit.a, fit.g}; }
+  static ShapeFunction<Dim> shape_function(const Fit<Dim>& fit) { return {shape_constant(fit), fit.g}; }
   static Coefficients coefficients(const Sums& sums, const Fit<Dim>& fit, double) {
     Coefficients k;
     if (fit.floored) {

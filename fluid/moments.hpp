@@ -35,7 +35,6 @@ struct Fit {
   Mat<Dim> G;
   // Spray: an eigenvalue of C was below the floor, too few neighbours for a linear fit; or wedged.hpp.
   bool floored;
-  double a = 0;  // (1 - m1.g)/m0, so that N_j(x_i) = V_j W_ij (a + g.x_ji)
 };
 
 // Inverse of a symmetric matrix by its adjugate; Dim is 2 or 3.
@@ -58,6 +57,12 @@ Mat<Dim> symmetric_inverse(const Mat<Dim>& a) {
     inverse << c00, c01, c02, c01, c11, c12, c02, c12, c22;
     return inverse / det;
   }
+}
+
+// a of the shape functions N_j(x_i) = V_j W_ij (a + g.x_ji): (1 - m1.g)/m0, in which m1/m0 = -G^-1 g.
+template <int Dim>
+double shape_constant(const Fit<Dim>& fit) {
+  return 1.0 / fit.m0 + fit.g.dot(symmetric_inverse<Dim>(fit.G) * fit.g);
 }
 
 // Whether every eigenvalue of the symmetric `a` is above `bound`: Sylvester's criterion on a - bound I.
@@ -103,7 +108,6 @@ Fit<Dim> fit(const Moments<Dim>& m, double floor) {
   f.G = floored_inverse<Dim>(C, floor * std::max(1.0, m.m0), f.floored);
   f.m0 = m.m0;
   f.g = -f.G * m.m1 / m.m0;
-  f.a = (1.0 - m.m1.dot(f.g)) / m.m0;
   return f;
 }
 

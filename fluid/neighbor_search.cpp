@@ -47,21 +47,39 @@ void sort(Particles<Dim>& fluid, const std::vector<std::uint32_t>& order) {
 template <int Dim>
 void NeighborSearch<Dim>::update(Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
                                  const Parallel& parallel) {
-  if (is_stale(fluid, boundary, parallel)) rebuild(fluid, boundary, parallel);
+  if (is_stale(moved2(fluid, parallel), boundary)) rebuild(fluid, boundary, parallel);
 }
 
 template <int Dim>
-bool NeighborSearch<Dim>::is_stale(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
-                                   const Parallel& parallel) const {
-  if (fluid_at_build_.size() != fluid.size() || rebuilds_ == 0) return true;
-  const double fluid2 = parallel.max(
-      fluid.size(), [&](std::size_t i) { return (fluid.node[i].x - fluid_at_build_[i]).squaredNorm(); });
+double NeighborSearch<Dim>::moved2(const Particles<Dim>& fluid, const Parallel& parallel) const {
+  if (fluid_at_build_.size() != fluid.size()) return std::numeric_limits<double>::infinity();
+  return parallel.max(fluid.size(), [&](std::size_t i) { return moved2(fluid, i); });
+}
+
+template <int Dim>
+bool NeighborSearch<Dim>::is_stale(double fluid_moved2, const BoundaryParticles<Dim>& boundary) const {
+  if (rebuilds_ == 0) return true;
   double boundary2 = 0;
   for (std::size_t w = 0; w < boundary.size(); ++w)
     boundary2 = std::max(boundary2, (boundary.node()[w].x - boundary_at_build_[w]).squaredNorm());
   // Two particles come nearer by at most the sum of their displacements.
-  const double fluid_moved = std::sqrt(fluid2), boundary_moved = std::sqrt(boundary2);
+  const double fluid_moved = std::sqrt(fluid_moved2), boundary_moved = std::sqrt(boundary2);
   return !(fluid_moved + std::max(fluid_moved, boundary_moved) < skin_);
+}
+
+// Of images further from the fluid than the reach the boundary particles near take the state over; other
+// formulations than the default walk from image to image.
+template <int Dim>
+bool NeighborSearch<Dim>::needs_image(const Vec<Dim>& x, const BoundaryParticles<Dim>& boundary,
+                                      const CellGrid<Dim>& walls) const {
+  const double reach = support_ + skin_;
+  if (plan_.singles || plan_.wall_singles || halo_.is_within(x, reach)) return true;
+  bool found = false;
+  walls.for_rows_in(x.array() - reach, x.array() + reach, [&](std::uint32_t first, std::uint32_t last) {
+    for (std::uint32_t k = first; k < last && !found; ++k)
+      found = (boundary.node()[walls.item()[k]].x - x).squaredNorm() < reach * reach;
+  });
+  return found;
 }
 
 template <int Dim>
@@ -74,14 +92,17 @@ void NeighborSearch<Dim>::rebuild(Particles<Dim>& fluid, const BoundaryParticles
   cells.file(fluid.node);
   sort(fluid, cells.item());
   // Now particle k of the sorted order is item k of the grid, and image k after the particles item k of its.
-  const std::vector<Node<Dim>> images = halo_.find(fluid);
+  CellGrid<Dim> walls(boundary.node(), cell_);
+  walls.file(boundary.node());
+  const std::vector<Node<Dim>> images =
+      halo_.find(fluid, [&](const Vec<Dim>& x) { return needs_image(x, boundary, walls); });
   CellGrid<Dim> image_cells(images, cell_);
   image_cells.file(images);
   halo_.append(fluid, image_cells.item());
-  const SearchGrids<Dim> grids{cells, image_cells, !images.empty()};
+  const SearchGrids<Dim> grids{cells, image_cells, !images.empty(), walls};
   const Visibility<Dim> visibility(fluid, boundary, reach);
   if (plan_.singles || plan_.wall_singles) list_singles(fluid, boundary, grids, visibility, parallel);
-  if (plan_.groups) groups_.rebuild(fluid, boundary, grids, visibility, reach, cell_, parallel);
+  if (plan_.groups) groups_.rebuild(fluid, boundary, grids, visibility, reach, parallel);
 
   fluid_at_build_.resize(fluid.size());
   for (std::size_t i = 0; i < fluid.size(); ++i) fluid_at_build_[i] = fluid.node[i].x;

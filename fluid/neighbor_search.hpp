@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -53,9 +54,15 @@ class NeighborSearch {
   // Neighbours may be images; what they are given is refreshed here.
   [[nodiscard]] const Halo<Dim>& halo() const { return halo_; }
 
-  // Whether motion demands a rebuild of the lists. Cost: one pass over the particles.
-  [[nodiscard]] bool is_stale(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
-                              const Parallel& parallel) const;
+  // How far a fluid particle has moved since the lists were made, or the one that moved most, squared [m^2];
+  // without lists of these particles infinite.
+  [[nodiscard]] double moved2(const Particles<Dim>& fluid, std::size_t i) const {
+    return i < fluid_at_build_.size() ? (fluid.node[i].x - fluid_at_build_[i]).squaredNorm()
+                                      : std::numeric_limits<double>::infinity();
+  }
+  [[nodiscard]] double moved2(const Particles<Dim>& fluid, const Parallel& parallel) const;
+  // Whether motion demands a rebuild of the lists; of the fluid the largest moved2.
+  [[nodiscard]] bool is_stale(double fluid_moved2, const BoundaryParticles<Dim>& boundary) const;
   // Sorts the fluid particles by cell and makes the lists.
   void rebuild(Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary, const Parallel& parallel);
   // The one if the other.
@@ -85,6 +92,8 @@ class NeighborSearch {
   }
 
  private:
+  [[nodiscard]] bool needs_image(const Vec<Dim>& x, const BoundaryParticles<Dim>& boundary,
+                                 const CellGrid<Dim>& walls) const;
   void list_singles(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
                     const SearchGrids<Dim>& grids, const Visibility<Dim>& visibility,
                     const Parallel& parallel);

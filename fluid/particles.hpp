@@ -19,11 +19,16 @@ struct Node {
   double rho = 0;  // [kg/m^3]; of several liquids, that which the reference has at the same pressure
 };
 
-// What sweep 1 leaves for sweep 2 at a fluid particle k: its fit, its stress and its gradients.
+// What sweep 1 leaves for sweep 2 at a fluid particle k: its fit and its stress.
 template <int Dim>
 struct Source {
-  Vec<Dim> s = Vec<Dim>::Zero();         // V sigma g
-  Mat<Dim> S = Mat<Dim>::Zero();         // V sigma G
+  Vec<Dim> s = Vec<Dim>::Zero();  // V sigma g
+  Mat<Dim> S = Mat<Dim>::Zero();  // V sigma G
+};
+
+// And the linear flow around it, for what goes by that or by what it leaves.
+template <int Dim>
+struct FlowGradients {
   Mat<Dim> strain = Mat<Dim>::Zero();    // symmetric part of the velocity gradient [1/s]
   Vec<Dim> grad_rho = Vec<Dim>::Zero();  // [kg/m^4]
 };
@@ -54,8 +59,8 @@ struct OwnLiquid {
 };
 
 // The state of the fluid, in the order of the last sort. Arrays of size() particles; node, pressure, stress,
-// fit, source, slope_source and point_source go on with the images beyond periodic and mirrored sides
-// (halo.hpp), and so do liquid and own.
+// fit, source, gradients, slope_source and point_source go on with the images beyond periodic and mirrored
+// sides (halo.hpp), and so do liquid and own.
 template <int Dim>
 struct Particles {
   std::vector<double> mass;            // [kg]
@@ -74,6 +79,7 @@ struct Particles {
   std::vector<Mat<Dim>> stress;    // sigma + p I, the viscous part [Pa]; empty without viscosity
   std::vector<Fit<Dim>> fit;
   std::vector<Source<Dim>> source;
+  std::vector<FlowGradients<Dim>> gradients;
   std::vector<SlopeSource<Dim>> slope_source;  // empty but with the full derivative
   // Of the stress points, 2^Dim for each particle; empty without them.
   static constexpr std::size_t kPoints = std::size_t{1} << Dim;
@@ -91,7 +97,7 @@ struct Particles {
   // What a run changes, here as in all that has it: state_bytes.hpp.
   auto state() {
     return std::tie(mass, node, acceleration, density_rate, id, opening, liquid, pressure, divergence, stress,
-                    fit, source, slope_source, point_source, own);
+                    fit, source, gradients, slope_source, point_source, own);
   }
 };
 

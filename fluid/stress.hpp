@@ -24,4 +24,11 @@ void set_source(double volume, const Mat<Dim>& sigma, const Fit<Dim>& fit, Sourc
   source.S = volume * (sigma * fit.G);
 }
 
+// The same of a pressure alone, V sigma = V_sigma I.
+template <int Dim>
+void set_source(double V_sigma, const Fit<Dim>& fit, Source<Dim>& source) {
+  source.s = V_sigma * fit.g;
+  source.S = V_sigma * fit.G;
+}
+
 }  // namespace sluice::fluid

@@ -38,7 +38,7 @@ class StressPointSweep {
     for (std::size_t s = 0; s < Rule::kPoints; ++s) {
       const Fit<Dim> f = fit(point_[s].moments, model_.moment_floor);
       const bool spray = f.floored || result.fit.floored;
-      const double difference = spray ? 0.0 : f.a * point_[s].rho + f.g.dot(point_[s].rho_x);
+      const double difference = spray ? 0.0 : shape_constant(f) * point_[s].rho + f.g.dot(point_[s].rho_x);
       result.coefficients[s] = {f.g, f.G, difference, f.floored};
     }
     return result;

@@ -15,9 +15,9 @@ namespace sluice::fluid {
 // particles do not resolve. The largest, if there are several; nothing, if there are none.
 template <int Dim, typename Kernel>
 std::optional<double> film_speed(const Model<Dim, Kernel>& model, const Vec<Dim>& x,
-                                    std::span<const std::uint32_t> neighbors,
-                                    const BoundaryParticles<Dim>& boundary,
-                                    std::span<const Plane<Dim>> mirrors) {
+                                 std::span<const std::uint32_t> neighbors,
+                                 const BoundaryParticles<Dim>& boundary,
+                                 std::span<const Plane<Dim>> mirrors) {
   const double film = 1.6 * model.spacing;
   // Boundary particles stand half a spacing behind their surface.
   const auto distance = [&](std::uint32_t w) {

@@ -60,7 +60,7 @@ std::vector<Vec<Dim>> forces_by_definition(const Scene& scene) {
     double rho = 0, mean = 0;
     for (std::size_t i = 0; i < force.size(); ++i) {
       const double VW = V * kernel.value(away(i)), rho_i = eos.density(fluid.pressure[i]);
-      rho += VW * (f.a + f.g.dot(away(i))) * rho_i;
+      rho += VW * (shape_constant(f) + f.g.dot(away(i))) * rho_i;
       mean += VW / moments.m0 * rho_i;
     }
     const double p = eos.pressure(f.floored ? mean : rho);

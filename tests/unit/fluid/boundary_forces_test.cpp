@@ -74,7 +74,7 @@ std::vector<Vec<Dim>> forces_by_definition(const Scene& scene, const Boundary& w
     for (std::size_t i = 0; i < force.size(); ++i) moments.add(fluid.volume * kernel.value(away(i)), away(i));
     const Fit<Dim> f = fit(moments, floor);
     const auto N = [&](std::size_t i) {
-      return fluid.volume * kernel.value(away(i)) * (f.a + f.g.dot(away(i)));
+      return fluid.volume * kernel.value(away(i)) * (shape_constant(f) + f.g.dot(away(i)));
     };
     Vec<Dim> v_hat = Vec<Dim>::Zero(), F = Vec<Dim>::Zero();
     for (std::size_t i = 0; i < force.size(); ++i) v_hat += N(i) * narrow<Dim>(fluid.velocity[i]);

@@ -127,10 +127,11 @@ TEST(Openings, StillWaterStaysAtItsLevel) {
   EXPECT_LT(end.max_speed, 0.1);
 }
 
-// It overshoots first; then what is too much goes back out.
+// It overshoots first; then what is too much goes back out, to a few particles of the last row, how many is
+// chance: a quarter of a row at most.
 TEST(Openings, LowWaterIsFilledUpToTheLevel) {
   Diagnostics end;
-  EXPECT_NEAR(volume_at_level(0.8, 30, end), 1.0, 0.01);
+  EXPECT_NEAR(volume_at_level(0.8, 30, end), 1.0, 0.25 * Stream::kSpacing);
   EXPECT_GT(end.openings[0].mass_out, 0);
 }
 

@@ -51,7 +51,7 @@ struct Cloud {
         const Fit<Dim> f = fit_at(at);
         double rho_s = 0;
         for (std::size_t j = 0; j < x.size(); ++j)
-          rho_s += weight(j, at) * (f.a + f.g.dot(x[j] - at)) * rho[j];
+          rho_s += weight(j, at) * (shape_constant(f) + f.g.dot(x[j] - at)) * rho[j];
         if (f.floored || fit_at(x[parent]).floored) rho_s = rho[parent];
         const double pV = model.eos.pressure(rho_s) * V / static_cast<double>(model.points.size());
         for (std::size_t i = 0; i < x.size(); ++i) force[i] += pV * weight(i, at) * (f.g + f.G * (x[i] - at));
