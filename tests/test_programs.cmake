@@ -4,11 +4,17 @@ endif()
 find_package(GTest REQUIRED)
 find_package(rapidcheck REQUIRED)
 include(GoogleTest)
+sluice_header_family(test Eigen3::Eigen fmt::fmt sluice_messages GTest::gmock_main)
 
 # A program made of these sources; every test in it carries the label.
 function(sluice_test_of name label sources)
   add_executable(${name} ${sources})
-  target_link_libraries(${name} PRIVATE ${ARGN} sluice_options GTest::gmock_main rapidcheck)
+  target_link_libraries(${name} PRIVATE ${ARGN} sluice_options GTest::gmock_main rapidcheck fmt::fmt)
+  sluice_precompile(${name} test)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # GCC 12 misreads sums of strings and literals at -O2 (its bug 105651).
+    target_compile_options(${name} PRIVATE -Wno-array-bounds)
+  endif()
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
   target_compile_definitions(${name} PRIVATE
     SLUICE_BIN="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}" SLUICE_SOURCE="${CMAKE_SOURCE_DIR}")

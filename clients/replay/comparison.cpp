@@ -54,8 +54,9 @@ std::string element(const Message& message, const Array& array, std::size_t k, c
     const auto particle = message.has_array(protocol::kParticleId)
                               ? message.array<std::int64_t>(protocol::kParticleId)[row]
                               : static_cast<std::int64_t>(row);
-    return fmt::format("{}{} of particle {}", array.name(), array.shape_size() == 2 ? " " + component(k) : "",
-                       particle);
+    const std::string what =
+        array.shape_size() == 2 ? fmt::format("{} {}", array.name(), component(k)) : array.name();
+    return fmt::format("{} of particle {}", what, particle);
   }
   const auto bodies = static_cast<std::size_t>(scene.body_size());
   const std::size_t row = k / width;
