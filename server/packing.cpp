@@ -1,5 +1,6 @@
 #include "server/packing.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -93,10 +94,12 @@ class Packing {
     Points boundary;  // its particles
   };
 
+  // Layers of a thin plate reach through it; those stand in nobody's way.
   void add_boundary(Placed& body) {
     const fluid::Boundary boundary = fluid::sample_body(body.shape, dx_, 2 * h_, dimension_);
     for (const Eigen::Vector3d& x : boundary.position)
-      body.boundary.push_back(body.pose.position + body.pose.orientation * x);
+      if (fluid::signed_distance(body.shape, x, dimension_) < 0)
+        body.boundary.push_back(body.pose.position + body.pose.orientation * x);
     fixed_.insert(fixed_.end(), body.boundary.begin(), body.boundary.end());
   }
 
@@ -152,16 +155,23 @@ class Packing {
     }
   }
 
+  [[nodiscard]] Eigen::AlignedBox3d box_around(const Placed& body) const {
+    const fluid::Bounds own = fluid::bounds(body.shape, dimension_);
+    const Eigen::AlignedBox3d box(own.min, own.max);
+    Eigen::AlignedBox3d turned;
+    for (int corner = 0; corner < 8; ++corner)
+      turned.extend(body.pose.position +
+                    body.pose.orientation * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+    return turned;
+  }
+
   // Points of the liquid's lattice that are neither liquid nor in a body.
   [[nodiscard]] Points lattice_around(const Placed& body) const {
     const double reach = kBand * dx_ + 2 * h_;
     const Eigen::Vector3d anchor = particles_.front();
-    Eigen::Vector3d low, high;
-    for (int a = 0; a < 3; ++a) {
-      const Eigen::Vector3d axis = body.pose.orientation.conjugate() * Eigen::Vector3d::Unit(a);
-      low[a] = body.pose.position[a] - support(body.shape, -axis) - reach;
-      high[a] = body.pose.position[a] + support(body.shape, axis) + reach;
-    }
+    const Eigen::AlignedBox3d box = box_around(body);
+    Eigen::Vector3d low = box.min().array() - reach;
+    const Eigen::Vector3d high = box.max().array() + reach;
     Eigen::Vector3i count = ((high - low) / dx_).array().ceil().cast<int>();
     low = anchor + dx_ * ((low - anchor) / dx_).array().ceil().matrix();
     if (dimension_ == 2) {

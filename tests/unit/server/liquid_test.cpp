@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <google/protobuf/text_format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -128,6 +129,35 @@ TEST(Liquid, IsCutWhereABodyDisplacesIt) {
     beyond += (x - Eigen::Vector3d(0.5, 0.5, 0)).norm() >= 0.2;
   }
   EXPECT_EQ(liquid.position.size(), beyond);
+}
+
+TEST(Liquid, IsCutAroundEveryKindOfShape) {
+  const std::string shapes[] = {
+      "compound { part { ball { radius: 0.15 } } part { box { size: [0.1, 0.1] } position: [0.2, 0] } }",
+      "polygon { vertex {} vertex { x: 0.4 y: 0.03 } vertex { x: 0.37 y: 0.4 } vertex { x: 0.1 y: 0.1 } }"};
+  for (const std::string& shape : shapes) {
+    const fluid::FluidParticles liquid =
+        fill("fluid { box { min: [0, 0] max: [1, 1] } } body { name: 'b' " + shape +
+             " position: [0.5, 0.5] density: 500 displaces_fluid: true }");
+    EXPECT_LT(liquid.position.size(), 100u) << shape;
+    EXPECT_GE(nearest_to(liquid, {0.5, 0.5, 0}), 0.05) << shape;
+  }
+  const std::string solids[] = {"cylinder { radius: 0.22 length: 0.37 }",
+                                "mesh { vertex: [0.3, 0, 0, 0, 0.3, 0, -0.2, -0.2, 0, 0, 0, 0.3] "
+                                "triangle: [0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3] }",
+                                "compound { part { ball { radius: 0.15 } } part { cylinder { radius: 0.1 "
+                                "length: 0.2 } position: [0.3, 0, 0] } }"};
+  for (const std::string& shape : solids) {
+    Scene scene;
+    ASSERT_TRUE(google::protobuf::TextFormat::ParseFromString(
+        "name: 'tank' dimension: 3 spacing: 0.1 duration: 1 domain { max: [1, 1, 1] } "
+        "fluid { box { min: [0, 0, 0] max: [1, 1, 1] } } body { name: 'b' " +
+            shape + " position: [0.5, 0.5, 0.5] density: 500 displaces_fluid: true }",
+        &scene));
+    const fluid::FluidParticles liquid = server::fill_liquid(protocol::with_defaults(scene));
+    EXPECT_LT(liquid.position.size(), 1000u) << shape;
+    EXPECT_GE(nearest_to(liquid, {0.5, 0.5, 0.5}), 0.03) << shape;
+  }
 }
 
 TEST(Liquid, IsCutAroundABodyInItsPose) {
