@@ -25,8 +25,9 @@ Boundary BodyImages::Reflection::of(const Boundary& body) const {
   Boundary image = body;
   for (Eigen::Vector3d& x : image.position) x = flip.cwiseProduct(x);
   for (Eigen::Vector3d& x : image.to_surface) x = flip.cwiseProduct(x);
-  for (Boundary::Face& face : image.faces)
-    face = {flip.cwiseProduct(face.point), flip.cwiseProduct(face.normal)};
+  for (std::vector<Boundary::Face>& faces : image.plates)
+    for (Boundary::Face& face : faces)
+      face = {flip.cwiseProduct(face.point), flip.cwiseProduct(face.normal), face.is_covered};
   return image;
 }
 

@@ -2,94 +2,33 @@
 #include <cmath>
 #include <numbers>
 
+#include "fluid/flat_face.hpp"
 #include "fluid/layers.hpp"
 
 namespace sluice::fluid {
 
 namespace {
 
-// A flat face: its points are origin + a e1 + b e2 with 0 <= a <= length1, 0 <= b <= length2; layers go along
-// -normal.
-struct FlatFace {
-  Eigen::Vector3d origin, e1, e2, normal;
-  double length1, length2;  // length2 is 0 in two dimensions
-};
-
-std::vector<FlatFace> edges(const std::vector<Eigen::Vector2d>& vertices) {
-  std::vector<FlatFace> faces;
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    const Eigen::Vector2d a = vertices[k], b = vertices[(k + 1) % vertices.size()];
-    const Eigen::Vector2d t = (b - a).normalized();
-    faces.push_back({{a.x(), a.y(), 0}, {t.x(), t.y(), 0}, {0, 0, 0}, {t.y(), -t.x(), 0}, (b - a).norm(), 0});
-  }
-  return faces;
-}
-
-std::vector<FlatFace> faces_of(const BoxShape& box, int dimension) {
-  const Eigen::Vector3d h = box.half_size;
-  if (dimension == 2) return edges({{-h.x(), -h.y()}, {h.x(), -h.y()}, {h.x(), h.y()}, {-h.x(), h.y()}});
-  std::vector<FlatFace> faces;
-  for (int a = 0; a < 3; ++a)
-    for (const double side : {-1.0, 1.0}) {
-      const int b = (a + 1) % 3, c = (a + 2) % 3;
-      Eigen::Vector3d origin = -h;
-      origin[a] = side * h[a];
-      faces.push_back({origin, Eigen::Vector3d::Unit(b), Eigen::Vector3d::Unit(c),
-                       side * Eigen::Vector3d::Unit(a), 2 * h[b], 2 * h[c]});
-    }
-  return faces;
-}
-
-std::vector<FlatFace> faces_of(const PolygonShape& polygon, int) {
-  return edges(polygon.vertices);
-}
-
-// Calls visit(position, volume, depth) for the points of the face's layers.
-template <typename Visit>
-void for_layers(const FlatFace& face, double spacing, int layers, const Visit& visit) {
-  const int n1 = std::max(1, static_cast<int>(std::lround(face.length1 / spacing)));
-  const int n2 = std::max(1, static_cast<int>(std::lround(face.length2 / spacing)));
-  const double d1 = face.length1 / n1, d2 = face.length2 / n2;
-  for (int l = 0; l < layers; ++l)
-    for (int b = 0; b < n2; ++b)
-      for (int a = 0; a < n1; ++a)
-        visit(face.origin + (a + 0.5) * d1 * face.e1 + (b + 0.5) * d2 * face.e2 -
-                  (l + 0.5) * spacing * face.normal,
-              d1 * (face.length2 > 0 ? d2 : 1.0) * spacing, (l + 0.5) * spacing);
-}
-
-// Every face with layers of its own, which may reach through the plate: only fluid in front of the face sees
-// them.
-Boundary thin_plate(const std::vector<FlatFace>& faces, double spacing, int layers) {
-  Boundary plate;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    plate.faces.push_back({faces[f].origin, faces[f].normal});
-    for_layers(faces[f], spacing, layers, [&](const Eigen::Vector3d& x, double volume, double depth) {
-      plate.position.push_back(x);
-      plate.volume.push_back(volume);
-      plate.to_surface.push_back(depth * faces[f].normal);
-      plate.face.push_back(static_cast<std::int32_t>(f));
-    });
-  }
-  return plate;
-}
-
 // Layers of a thick polygon: a point belongs to the face it is nearest to, which mitres the corners.
 Boundary sample_thick(const PolygonShape& polygon, double spacing, double support, int layers) {
   Boundary body;
-  const std::vector<FlatFace> faces = edges(polygon.vertices);
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for_layers(faces[f], spacing, layers, [&](const Eigen::Vector3d& x, double volume, double) {
-      const double own = (x - faces[f].origin).dot(faces[f].normal);
+  const std::vector<FlatFace> faces = flat_faces(polygon, 2);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const Feet feet(faces[f], spacing);
+    const auto add = [&](const Eigen::Vector3d& x) {
+      const double own = faces[f].distance(x);
       for (std::size_t other = 0; other < faces.size(); ++other) {
-        const double d = (x - faces[other].origin).dot(faces[other].normal);
+        const double d = faces[other].distance(x);
         if (d > own || (d == own && other < f)) return;
       }
       if (own < -support) return;
       body.position.push_back(x);
-      body.volume.push_back(volume);
+      body.volume.push_back(feet.area() * spacing);
       body.to_surface.push_back(-own * faces[f].normal);
-    });
+    };
+    for (int l = 0; l < layers; ++l)
+      for (int a = 0; a < feet.n1; ++a) add(feet.at(a, 0) - (l + 0.5) * spacing * faces[f].normal);
+  }
   return body;
 }
 
@@ -190,14 +129,8 @@ Boundary sample_thick(const Shape& shape, double spacing, double support, int di
 }
 
 Boundary sample_body(const Shape& shape, double spacing, double support, int dimension) {
-  if (thickness(shape, dimension) >= 2.0 * support - 1e-9)
-    return sample_thick(shape, spacing, support, dimension);
-  const int layers = layer_count(support, spacing);
-  if (const auto* box = std::get_if<BoxShape>(&shape))
-    return thin_plate(faces_of(*box, dimension), spacing, layers);
-  if (const auto* polygon = std::get_if<PolygonShape>(&shape))
-    return thin_plate(faces_of(*polygon, dimension), spacing, layers);
-  return sample_thick(shape, spacing, support, dimension);
+  return needs_plate_rule(shape, support, dimension) ? sample_plate(shape, spacing, support, dimension)
+                                                     : sample_thick(shape, spacing, support, dimension);
 }
 
 }  // namespace sluice::fluid

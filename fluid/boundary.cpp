@@ -40,14 +40,12 @@ void BoundaryParticles<Dim>::make_returning(std::span<const std::size_t> particl
 
 template <int Dim>
 void BoundaryParticles<Dim>::append(const Boundary& boundary, const Setup& setup) {
-  const auto body = static_cast<std::int32_t>(plate_of_body_.size());
-  const bool is_plate = !boundary.faces.empty();
+  const auto body = static_cast<std::int32_t>(body_count());
+  const auto first_plate = static_cast<std::int32_t>(plates_.size());
   const bool has_volume = setup.formulation.boundary == BoundaryTreatment::layers;
-  plate_of_body_.push_back(is_plate ? static_cast<std::int32_t>(plates_.size()) : -1);
   first_.push_back(node_.size());
   no_slip_.push_back(boundary.no_slip);
   assert(boundary.to_surface.size() == boundary.position.size());
-  Plate<Dim> plate{static_cast<std::size_t>(body), {}};
   for (std::size_t k = 0; k < boundary.position.size(); ++k) {
     const Vec<Dim> x = narrow<Dim>(boundary.position[k]);
     const double volume = has_volume ? boundary.volume[k] : 0.0;
@@ -56,15 +54,25 @@ void BoundaryParticles<Dim>::append(const Boundary& boundary, const Setup& setup
     append_surface(boundary.to_surface[k], body == 0);
     sampled_volume_.push_back(volume);
     body_.push_back(body);
-    face_.push_back(is_plate ? boundary.face[k] : -1);
+    const bool is_plates = !boundary.plates.empty() && boundary.plate[k] >= 0;
+    plate_.push_back(is_plates ? first_plate + boundary.plate[k] : -1);
+    face_.push_back(is_plates ? boundary.face[k] : -1);
   }
-  if (!is_plate) return;
-  for (const Boundary::Face& face : boundary.faces) {
-    const Vec<Dim> normal = narrow<Dim>(face.normal);
-    plate.faces.push_back({normal, normal.dot(narrow<Dim>(face.point))});
+  append_plates(boundary, body);
+}
+
+template <int Dim>
+void BoundaryParticles<Dim>::append_plates(const Boundary& boundary, std::int32_t body) {
+  for (const std::vector<Boundary::Face>& faces : boundary.plates) {
+    Plate<Dim> plate{body, {}, {}};
+    for (const Boundary::Face& face : faces) {
+      const Vec<Dim> normal = narrow<Dim>(face.normal);
+      plate.faces.push_back({normal, normal.dot(narrow<Dim>(face.point))});
+      plate.is_covered.push_back(face.is_covered);
+    }
+    plates_.push_back(plate);
+    local_faces_.push_back(faces);
   }
-  plates_.push_back(plate);
-  local_faces_.push_back(boundary.faces);
 }
 
 // The tank is axis-parallel: where the way to its surface has several components, there are several faces.
@@ -100,16 +108,17 @@ void BoundaryParticles<Dim>::move_body(std::size_t body, const Kinematics& k) {
     surface_[w].normal = narrow<Dim>(R * widen<Dim>(local_normal_[w]));
     surface_[w].across = surface_[w].normal * surface_[w].normal.transpose();
   }
-  if (plate_of_body_[body] >= 0) move_plate(k, plates_[static_cast<std::size_t>(plate_of_body_[body])]);
+  for (std::size_t p = 0; p < plates_.size(); ++p)
+    if (plates_[p].body == static_cast<std::int32_t>(body)) move_plate(k, p);
 }
 
 template <int Dim>
-void BoundaryParticles<Dim>::move_plate(const Kinematics& k, Plate<Dim>& plate) {
+void BoundaryParticles<Dim>::move_plate(const Kinematics& k, std::size_t plate) {
   const Eigen::Matrix3d R = k.orientation.toRotationMatrix();
-  const auto& faces = local_faces_[static_cast<std::size_t>(plate_of_body_[plate.body])];
+  const std::vector<Boundary::Face>& faces = local_faces_[plate];
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const Eigen::Vector3d normal = R * faces[f].normal;
-    plate.faces[f] = {narrow<Dim>(normal), normal.dot(k.position + R * faces[f].point)};
+    plates_[plate].faces[f] = {narrow<Dim>(normal), normal.dot(k.position + R * faces[f].point)};
   }
 }
 

@@ -18,12 +18,13 @@ struct Plane {
   [[nodiscard]] double distance(const Vec<Dim>& x) const { return normal.dot(x) - offset; }
 };
 
-// A body whose sides must not see each other, in its present pose: the intersection of the half-spaces
-// behind its faces.
+// A body, or a part of one, whose sides must not see each other, in its present pose: the intersection of the
+// half-spaces behind its faces.
 template <int Dim>
 struct Plate {
-  std::size_t body;
+  std::int32_t body;
   std::vector<Plane<Dim>> faces;
+  std::vector<bool> is_covered;  // per face, by other parts of the body
 
   auto state() { return std::tie(faces); }
 };
@@ -72,9 +73,9 @@ class BoundaryParticles {
   [[nodiscard]] std::int32_t body(std::size_t w) const { return body_[w]; }
   // Index into plates()[plate(w)].faces of a plate's particle; plate(w) is -1 for all others.
   [[nodiscard]] std::int32_t face(std::size_t w) const { return face_[w]; }
-  [[nodiscard]] std::int32_t plate(std::size_t w) const { return plate_of_body_[body_[w]]; }
+  [[nodiscard]] std::int32_t plate(std::size_t w) const { return plate_[w]; }
   [[nodiscard]] const std::vector<Plate<Dim>>& plates() const { return plates_; }
-  [[nodiscard]] std::size_t body_count() const { return plate_of_body_.size(); }
+  [[nodiscard]] std::size_t body_count() const { return no_slip_.size(); }
 
   // From now on these return forces, zero to begin with, and no others.
   void make_returning(std::span<const std::size_t> particles);
@@ -111,7 +112,8 @@ class BoundaryParticles {
   void append(const Boundary& boundary, const Setup& setup);
   void append_surface(const Eigen::Vector3d& to_surface, bool is_wall);
   void move_body(std::size_t body, const Kinematics& kinematics);
-  void move_plate(const Kinematics& kinematics, Plate<Dim>& plate);
+  void append_plates(const Boundary& boundary, std::int32_t body);
+  void move_plate(const Kinematics& kinematics, std::size_t plate);
 
   std::vector<Node<Dim>> node_;
   std::vector<Vec<Dim>> local_, local_normal_;
@@ -119,10 +121,9 @@ class BoundaryParticles {
   std::vector<Surface<Dim>> surface_;
   std::vector<bool> no_slip_;  // per body
   std::vector<double> sampled_volume_;
-  std::vector<std::int32_t> body_, face_;
+  std::vector<std::int32_t> body_, plate_, face_;
   std::vector<std::int32_t> returned_at_;  // place in returned_force, or -1
   std::vector<std::size_t> first_;         // of every body, and the end
-  std::vector<std::int32_t> plate_of_body_;
   std::vector<Plate<Dim>> plates_;
   std::vector<std::vector<Boundary::Face>> local_faces_;  // per plate
 };

@@ -17,6 +17,7 @@ Boundary in_rows(const Boundary& boundary, double cell) {
   permute(sorted.volume, cells.item());
   permute(sorted.to_surface, cells.item());
   permute(sorted.velocity, cells.item());
+  permute(sorted.plate, cells.item());
   permute(sorted.face, cells.item());
   return sorted;
 }

@@ -7,7 +7,11 @@ namespace sluice::fluid {
 // The parts of sample_body: layers inward from the surface of one kind of shape, in the shape's frame. Depths
 // are (l + 1/2) dx of layer l.
 
-// Without the thin-plate rule.
+// Whether it is thinner than two supports, and a box or a convex polygon.
+bool needs_plate_rule(const Shape& shape, double support, int dimension);
+// By the thin-plate rule, on its own.
+Boundary sample_plate(const Shape& shape, double spacing, double support, int dimension);
+// Without the rule; compounds use it where they need it.
 Boundary sample_thick(const Shape& shape, double spacing, double support, int dimension);
 
 // A polygon that is not convex: every edge has layers, a corner that points inward has arcs between those of
@@ -21,8 +25,9 @@ Boundary sample_cylinder(const CylinderShape& cylinder, double spacing, int laye
 // pushed apart along it.
 Boundary sample_mesh(const MeshShape& mesh, double spacing, int layers);
 
-// Every part's own layers, without those inside another part. Where the nearest surface of a part's own
-// particle is one that another part covers, the nearest that is not takes its place.
+// Every part's own layers, without those inside another part that is thick. Where the nearest surface of a
+// thick part's own particle is one that another part covers, the nearest that is not takes its place. Parts
+// that need the thin-plate rule are plates (plate_sampling.hpp).
 Boundary sample_compound(const CompoundShape& compound, double spacing, double support, int dimension);
 
 // In the frame in which the part is placed.

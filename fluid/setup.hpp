@@ -89,8 +89,8 @@ struct FluidParticles {
 };
 
 // Boundary particles of one body, or of the walls, in the body's frame. A particle of a thin plate belongs to
-// one face and acts only on fluid in front of it: outward of the plane through face_point with normal
-// face_normal.
+// one of its faces and acts only on fluid in front of that, outward of the plane through its point. A body
+// may consist of several plates, and of other parts.
 struct Boundary {
   std::vector<Eigen::Vector3d> position;    // [m]
   std::vector<double> volume;               // [m^3], [m^2] in 2D
@@ -100,9 +100,11 @@ struct Boundary {
   double free_mass = 0;  // of a body that answers to the fluid's force [kg], [kg/m] in 2D; 0: prescribed
   struct Face {
     Eigen::Vector3d point, normal;
+    bool is_covered = false;  // by other parts of the body: no fluid is in front of it
   };
-  std::vector<Face> faces;         // empty: an ordinary body, seen from everywhere
-  std::vector<std::int32_t> face;  // per particle, index into faces; empty when faces is
+  std::vector<std::vector<Face>> plates;  // the faces of each; empty: an ordinary body, seen from everywhere
+  // Per particle: index into plates and into that plate's faces, -1 of other parts; empty when plates is.
+  std::vector<std::int32_t> plate, face;
 };
 
 // Sides that are one and the same: what leaves through one comes in through the other. No boundary particle

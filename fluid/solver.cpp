@@ -106,7 +106,7 @@ void check_boundary_forces(const Setup& setup) {
   require(std::none_of(setup.mirrors.at.begin(), setup.mirrors.at.end(), [](bool mirror) { return mirror; }),
           "boundary", static_cast<double>(f.boundary), "forces, 1, need walls in the place of mirrors");
   const auto is_fit = [&setup](const Boundary& boundary) {
-    return boundary.faces.empty() && !(boundary.no_slip && setup.has_viscous_stress());
+    return boundary.plates.empty() && !(boundary.no_slip && setup.has_viscous_stress());
   };
   require(is_fit(setup.walls) && std::all_of(setup.bodies.begin(), setup.bodies.end(), is_fit), "boundary",
           static_cast<double>(f.boundary), "forces, 1, are built for thick bodies along which liquid slides");

@@ -10,7 +10,8 @@ namespace sluice::fluid {
 // The thin-plate rule (README.md): the two sides of a plate thinner than two supports must not see each
 // other.
 
-// The face that fluid at x, pressed into the plate, belongs to: the nearest. -1 when x is outside.
+// The face that fluid at x, pressed into the plate, belongs to: the nearest that it can have come through. -1
+// when x is outside.
 template <int Dim>
 int home_face(const Plate<Dim>& plate, const Vec<Dim>& x) {
   int nearest = -1;
@@ -18,7 +19,7 @@ int home_face(const Plate<Dim>& plate, const Vec<Dim>& x) {
   for (std::size_t f = 0; f < plate.faces.size(); ++f) {
     const double d = plate.faces[f].distance(x);
     if (d > 0.0) return -1;
-    if (d > largest) {
+    if (d > largest && !plate.is_covered[f]) {
       largest = d;
       nearest = static_cast<int>(f);
     }

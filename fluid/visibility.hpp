@@ -36,11 +36,27 @@ class Visibility {
 
   [[nodiscard]] bool fluid_sees_boundary(std::size_t i, std::size_t w) const {
     const std::int32_t plate = boundary_.plate(w);
-    return plate < 0 || sees_face(boundary_.plates()[static_cast<std::size_t>(plate)], boundary_.face(w),
-                                  fluid_.node[i].x);
+    if (plate < 0) return true;
+    const Vec<Dim>& x = fluid_.node[i].x;
+    return sees_face(boundary_.plates()[static_cast<std::size_t>(plate)], boundary_.face(w), x) &&
+           !is_hidden(x, w);
   }
 
  private:
+  // Whether another plate of the same body stands between x and the surface in front of w, where the two may
+  // touch.
+  [[nodiscard]] bool is_hidden(const Vec<Dim>& x, std::size_t w) const {
+    const Surface<Dim>& surface = boundary_.surface(w);
+    const Vec<Dim> foot = boundary_.node()[w].x + surface.depth * surface.normal;
+    const Vec<Dim> before = foot + 1e-6 * (x - foot);
+    const std::vector<Plate<Dim>>& plates = boundary_.plates();
+    for (std::size_t p = 0; p < plates.size(); ++p)
+      if (plates[p].body == boundary_.body(w) && static_cast<std::int32_t>(p) != boundary_.plate(w) &&
+          crosses(plates[p], x, before))
+        return true;
+    return false;
+  }
+
   const Particles<Dim>& fluid_;
   const BoundaryParticles<Dim>& boundary_;
   std::vector<std::uint8_t> near_;

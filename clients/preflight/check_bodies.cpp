@@ -13,9 +13,8 @@ double support_of(const Layout& layout) {
 
 // Without the rule, in front of a body thinner than two supports liquid sees the particles of its other side,
 // and behind one thinner than a support the liquid there.
-void check_without_rule(const BodyLayout& body, double width, const Layout& layout, Findings& findings) {
-  const double support = support_of(layout);
-  if (width >= 2 * support) return;
+void warn_without_rule(const BodyLayout& body, const Layout& layout, Findings& findings) {
+  const double support = support_of(layout), width = body.thickness_without_plate_rule;
   const bool is_round = std::holds_alternative<rigid::Ball>(body.placed.shape);
   findings.warning(
       body.field,
@@ -25,9 +24,7 @@ void check_without_rule(const BodyLayout& body, double width, const Layout& layo
           body.name, width, width < support ? "the support" : "two supports", support,
           width < support ? "liquid on opposite sides interacts through it"
                           : "liquid on one side feels the pressure of the other",
-          is_round ? ""
-                   : "make it of boxes or convex polygons, which keep their sides apart, as bodies with "
-                     "fixed joints between them, or ",
+          is_round ? "" : "make it a compound of boxes or convex polygons, which keep their sides apart, or ",
           layout.spacing * width / (2 * support)));
 }
 
@@ -47,8 +44,8 @@ void check_thickness(const BodyLayout& body, const Layout& layout, Findings& fin
                       "formulation.boundary FORCES does not keep its sides apart; make it thicker, "
                       "the spacing at most {:.3g} m, or leave boundary out",
                       body.name, width, support, layout.spacing * width / support));
-  } else if (!body.has_plate_rule)
-    check_without_rule(body, width, layout, findings);
+  } else if (body.thickness_without_plate_rule < 2 * support)
+    warn_without_rule(body, layout, findings);
   else if (width < 2 * support)
     findings.warning(
         body.field,

@@ -83,7 +83,7 @@ void lay_out(const Body& body, int index, Layout& layout, Findings& findings) {
                              body.displaces_fluid(),
                              protocol::moments(body, layout.dimension).volume,
                              least_thickness(body, layout.dimension),
-                             has_plate_rule(body)});
+                             least_without_plate_rule(body, layout.dimension)});
   } catch (const std::invalid_argument& error) {
     findings.error(field, fmt::format("body '{}': {}", body.name(), error.what()));
   }

@@ -19,9 +19,9 @@ struct BodyLayout {
   std::vector<double> key_times;
   double motion_end;  // of the run, or where the motion releases the body [s]
   bool displaces_fluid;
-  double volume;     // [m^3], [m^2] in two dimensions
-  double thickness;  // where it is thinnest [m]
-  bool has_plate_rule;
+  double volume;                        // [m^3], [m^2] in two dimensions
+  double thickness;                     // where it is thinnest [m]
+  double thickness_without_plate_rule;  // of what the rule does not know
 };
 
 struct RegionLayout {

@@ -95,17 +95,30 @@ double thickness_of(const WithShape& body, int dimension) {
                                    : through(outline);
 }
 
-}  // namespace
-
-bool has_plate_rule(const Body& body) {
+template <typename WithShape>
+bool has_plate_rule(const WithShape& body) {
   return body.has_box() || (body.has_polygon() && rigid::is_convex(outline_of(body.polygon())));
 }
 
+// The least of a body's parts, or of the body.
+template <typename Thickness>
+double least(const Body& body, const Thickness& thickness) {
+  if (!body.has_compound()) return thickness(body);
+  double smallest = kInfinity;
+  for (const Part& part : body.compound().part()) smallest = std::min(smallest, thickness(part));
+  return smallest;
+}
+
+}  // namespace
+
 double least_thickness(const Body& body, int dimension) {
-  if (!body.has_compound()) return thickness_of(body, dimension);
-  double least = kInfinity;
-  for (const Part& part : body.compound().part()) least = std::min(least, thickness_of(part, dimension));
-  return least;
+  return least(body, [&](const auto& shape) { return thickness_of(shape, dimension); });
+}
+
+double least_without_plate_rule(const Body& body, int dimension) {
+  return least(body, [&](const auto& shape) {
+    return has_plate_rule(shape) ? kInfinity : thickness_of(shape, dimension);
+  });
 }
 
 }  // namespace sluice::clients

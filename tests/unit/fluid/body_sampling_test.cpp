@@ -33,7 +33,7 @@ TEST(SampleBox, FillsItsShellInThePlane) {
   const Shape box = BoxShape{{0.8, 0.5, 0}};
   const Boundary body = sample_body(box, kSpacing, kSupport, 2);
   expect_within(body, box, 2);
-  EXPECT_TRUE(body.faces.empty());
+  EXPECT_TRUE(body.plates.empty());
   EXPECT_NEAR(total(body), 1.6 * 1.0 - 1.0 * 0.4, 1e-12);
   for (const Vector3d& x : body.position) EXPECT_GT(signed_distance(box, x, 2), -kSupport);
 }
@@ -54,7 +54,7 @@ TEST(SampleBox, StretchesItsCellsToASizeThatIsNoMultipleOfTheSpacing) {
 
 TEST(SampleBox, AsThickAsTwoSupportsIsFull) {
   const Boundary body = sample_body(BoxShape{{0.3, 0.3, 0}}, kSpacing, kSupport, 2);
-  EXPECT_TRUE(body.faces.empty());
+  EXPECT_TRUE(body.plates.empty());
   EXPECT_NEAR(total(body), 0.36, 1e-12);
 }
 
@@ -99,7 +99,7 @@ TEST(SamplePolygon, FillsItsShellWithMitredCorners) {
                                       {-0.5, -std::sqrt(0.75)},
                                       {0.5, -std::sqrt(0.75)}}};
   const Boundary body = sample_body(hexagon, 0.02, 0.06, 2);
-  EXPECT_TRUE(body.faces.empty());
+  EXPECT_TRUE(body.plates.empty());
   expect_within(body, hexagon, 2);
   const double inner = 1.0 - 0.06 / std::sqrt(0.75);
   const double shell = 1.5 * std::sqrt(3.0) * (1.0 - inner * inner);
@@ -110,22 +110,22 @@ TEST(SamplePolygon, FillsItsShellWithMitredCorners) {
 TEST(SamplePlate, HasLayersOfItsOwnForEveryFace) {
   const Shape plate = BoxShape{{0.1, 0.6, 0}};
   const Boundary body = sample_body(plate, kSpacing, kSupport, 2);
-  ASSERT_EQ(body.faces.size(), 4u);
+  ASSERT_EQ(body.plates.front().size(), 4u);
   ASSERT_EQ(body.face.size(), body.position.size());
   std::vector<double> depth(4, 0.0), volume(4, 0.0);
   for (std::size_t k = 0; k < body.position.size(); ++k) {
     const auto f = static_cast<std::size_t>(body.face[k]);
     ASSERT_LT(f, 4u);
-    const double d = -(body.position[k] - body.faces[f].point).dot(body.faces[f].normal);
+    const double d = -(body.position[k] - body.plates.front()[f].point).dot(body.plates.front()[f].normal);
     EXPECT_GT(d, 0.0);  // behind its own face
     depth[f] = std::max(depth[f], d);
     volume[f] += body.volume[k];
   }
   for (std::size_t f = 0; f < 4; ++f) {
     EXPECT_NEAR(depth[f], kSupport - 0.5 * kSpacing, 1e-12);
-    const double length = std::abs(body.faces[f].normal.x()) > 0.5 ? 1.2 : 0.2;
+    const double length = std::abs(body.plates.front()[f].normal.x()) > 0.5 ? 1.2 : 0.2;
     EXPECT_NEAR(volume[f], length * kSupport, 1e-12);
-    EXPECT_NEAR(signed_distance(plate, body.faces[f].point, 2), 0.0, 1e-12);
+    EXPECT_NEAR(signed_distance(plate, body.plates.front()[f].point, 2), 0.0, 1e-12);
   }
 }
 
@@ -137,28 +137,29 @@ TEST(SamplePlate, KeepsItsFacesInAnotherFrame) {
   const Boundary plate = sample_body(box, kSpacing, kSupport, 2);
   const Boundary placed = sample_body(CompoundShape{{{box, shift, turn}}}, kSpacing, kSupport, 2);
   ASSERT_EQ(placed.position.size(), plate.position.size());
-  ASSERT_EQ(placed.faces.size(), 4u);
+  ASSERT_EQ(placed.plates.front().size(), 4u);
   EXPECT_EQ(placed.face, plate.face);
   for (std::size_t w = 0; w < plate.position.size(); ++w) {
     EXPECT_NEAR((placed.position[w] - shift - turn * plate.position[w]).norm(), 0, 1e-15);
     EXPECT_NEAR((placed.to_surface[w] - turn * plate.to_surface[w]).norm(), 0, 1e-15);
   }
   for (std::size_t f = 0; f < 4; ++f) {
-    EXPECT_NEAR((placed.faces[f].point - shift - turn * plate.faces[f].point).norm(), 0, 1e-15);
-    EXPECT_NEAR((placed.faces[f].normal - turn * plate.faces[f].normal).norm(), 0, 1e-15);
+    EXPECT_NEAR((placed.plates.front()[f].point - shift - turn * plate.plates.front()[f].point).norm(), 0,
+                1e-15);
+    EXPECT_NEAR((placed.plates.front()[f].normal - turn * plate.plates.front()[f].normal).norm(), 0, 1e-15);
   }
 }
 
 TEST(SamplePlate, InSpaceHasSixFaces) {
   const Boundary body = sample_body(BoxShape{{0.1, 0.6, 0.5}}, kSpacing, kSupport, 3);
-  ASSERT_EQ(body.faces.size(), 6u);
+  ASSERT_EQ(body.plates.front().size(), 6u);
   EXPECT_NEAR(total(body), kSupport * 2 * (0.2 * 1.2 + 1.2 * 1.0 + 1.0 * 0.2), 1e-12);
 }
 
 TEST(SamplePlate, ATurnedPolygonIsOneToo) {
   const Boundary body =
       sample_body(PolygonShape{{{0, 0}, {0.8, 0.6}, {0.74, 0.68}, {-0.06, 0.08}}}, kSpacing, kSupport, 2);
-  ASSERT_EQ(body.faces.size(), 4u);
+  ASSERT_EQ(body.plates.front().size(), 4u);
   EXPECT_NEAR(total(body), kSupport * 2 * (1.0 + 0.1), 1e-12);
 }
 

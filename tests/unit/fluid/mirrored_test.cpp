@@ -140,7 +140,7 @@ TEST(MirroredBody, FeelsWhatItFeelsBesideItsImage) {
   Boundary other = whole.setup.bodies[0];
   for (Vector3d& x : other.position) x.x() = -x.x();
   for (Vector3d& x : other.to_surface) x.x() = -x.x();
-  for (Boundary::Face& face : other.faces)
+  for (Boundary::Face& face : other.plates.front())
     face = {{-face.point.x(), face.point.y(), 0}, {-face.normal.x(), face.normal.y(), 0}};
   whole.setup.bodies.push_back(other);
   half.setup.measure_wall_force = true;

@@ -189,10 +189,10 @@ TEST(Sampling, CompoundOfOnePartIsThatPartElsewhere) {
   moved.parts.push_back({plate, {0.1, 0.2, 0.3}, turn});
   const Boundary there = sample_body(moved, kSpacing, kSupport, 3),
                  here = sample_body(plate, kSpacing, kSupport, 3);
-  ASSERT_EQ(there.faces.size(), 6u);
+  ASSERT_EQ(there.plates.front().size(), 6u);
   ASSERT_EQ(there.position.size(), here.position.size());
   EXPECT_TRUE(there.position[7].isApprox(Vector3d(0.1, 0.2, 0.3) + turn * here.position[7], 1e-14));
-  EXPECT_TRUE(there.faces[2].normal.isApprox(turn * here.faces[2].normal, 1e-14));
+  EXPECT_TRUE(there.plates.front()[2].normal.isApprox(turn * here.plates.front()[2].normal, 1e-14));
 }
 
 }  // namespace

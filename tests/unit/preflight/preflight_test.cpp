@@ -190,9 +190,9 @@ TEST_F(PreflightTest, thin_bodies_without_the_plate_rule) {
   EXPECT_THAT(check(angle(0.02)).warnings, ElementsAre(problem("body[0]", "take a spacing below 0.00345 m")));
   EXPECT_THAT(check(angle(0.009)).errors,
               ElementsAre(problem("body[0]", "thinner than one particle spacing")));
-  const std::string part = "part { box { size: [0.2, 0.03] } position: [";
-  EXPECT_THAT(check(shape("compound { " + part + "0, 0] } " + part + "0.2, 0] } }")).warnings,
-              ElementsAre(problem("body[0]", "0.03 m thick")));
+  const std::string ball = "part { ball { radius: 0.015 } position: [0.2, 0] }";
+  EXPECT_THAT(check(shape("compound { part { box { size: [0.2, 0.1] } } " + ball + " }")).warnings,
+              ElementsAre(problem("body[0]", "0.03 m thick at its thinnest")));
   EXPECT_THAT(check(shape("ball { radius: 0.02 }")).warnings,
               ElementsAre(problem("body[0]", "0.04 m thick")));
 }
@@ -214,6 +214,11 @@ TEST_F(PreflightTest, thin_bodies) {
   };
   EXPECT_THAT(check(plate("0.0581")).warnings, IsEmpty());
   EXPECT_THAT(check(plate("0.0579")).warnings, ElementsAre(problem("body[0]", "thin-plate rule")));
+  const std::string part = "part { box { size: [0.2, 0.03] } position: [";
+  EXPECT_THAT(check("body { name: \"two\" compound { " + part + "0, 0] } " + part +
+                    "0.2, 0] } } density: 500 position: [0.5, 0.5] }")
+                  .warnings,
+              ElementsAre(problem("body[0]", "thin-plate rule")));
   EXPECT_THAT(check(plate("0.01")).errors, IsEmpty());
   EXPECT_THAT(check(plate("0.009")).errors,
               ElementsAre(problem("body[0]", "thinner than one particle spacing")));
