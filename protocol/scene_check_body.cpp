@@ -40,6 +40,13 @@ void check_name(const Body& body, const std::string& field, std::map<std::string
                  fmt::format("\"{}\" is the name of {} too; names must differ", body.name(), first->second));
 }
 
+void check_owner(const Body& body, const std::string& field, FieldCheck& check) {
+  if (!body.owner().empty() && !usable_name(body.owner()))
+    check.report(field + ".owner",
+                 fmt::format("\"{}\" is not 1 to {} letters, digits, _ or -; choose such a name",
+                             body.owner(), kLongestName));
+}
+
 void check_mass(const Body& body, const std::string& field, FieldCheck& check) {
   if (body.has_density())
     check.positive(body.density(), field + ".density", "kg/m^3", "give the body's density, water is 1000");
@@ -103,6 +110,7 @@ void check_bodies(const Scene& scene, FieldCheck& check) {
     const Body& body = scene.body(i);
     const std::string field = fmt::format("body[{}]", i);
     check_name(body, field, names, check);
+    check_owner(body, field, check);
     check_body_shape(body, field, check);
     check_mass(body, field, check);
     check.vector(body.position(), field + ".position", "the position of the centre of mass");

@@ -75,6 +75,11 @@ void check_ends(const Joint& joint, const Scene& scene, const std::string& field
         field + ".to",
         fmt::format("there is no body \"{}\"; name one, or leave it out for the world", joint.to()));
   if (body == to) return check.report(field + ".to", "is the same body; name another");
+  if (to != nullptr && body->owner() != to->owner())
+    return check.report(field,
+                        fmt::format("joins bodies of two owners, \"{}\" and \"{}\"; who moves one of them "
+                                    "does not know the other",
+                                    body->owner(), to->owner()));
   if (!is_ever_free(*body) && (to == nullptr || !is_ever_free(*to)))
     check.report(field, "joins nothing that is free to move; remove it");
 }

@@ -1,5 +1,6 @@
 #include "server/content.hpp"
 
+#include "protocol/body_kind.hpp"
 #include "protocol/frame_layout.hpp"
 #include "server/build_info.hpp"
 #include "server/kinematics_rows.hpp"
@@ -38,6 +39,20 @@ void add_wrenches(Message& message, std::string_view name, std::span<const fluid
   message.add_array<double>(name, rows, {wrenches.size(), kWrenchRow});
 }
 
+// What a participant is told of the bodies that it moves. Who is not `sluice rigid` takes part step by step.
+void add_own(Message& message, const Simulation& simulation, const std::string& owner) {
+  Welcome& content = *message.header.mutable_welcome();
+  std::vector<fluid::Wrench> wrenches;
+  for (const int b : protocol::bodies_of(simulation.scene, owner)) {
+    content.add_body(static_cast<std::uint32_t>(b));
+    wrenches.push_back(simulation.initial_wrenches[static_cast<std::size_t>(b)]);
+  }
+  add_wrenches(message, "wrenches", wrenches);
+  if (owner.empty() || !content.has_coupling()) return;
+  content.mutable_coupling()->set_scheme(EXPLICIT);
+  content.mutable_coupling()->set_steps_per_exchange(1);
+}
+
 void add_probes(Message& message, const Simulation& simulation, std::span<const double> kinematics) {
   const std::vector<double> rows = probe_rows(simulation, kinematics);
   message.add_array<double>("probe", rows, {rows.size() / kProbeRow, kProbeRow});
@@ -58,7 +73,8 @@ void fill_energy(Energy& energy, const fluid::Diagnostics& diagnostics) {
 
 }  // namespace
 
-Message welcome(const Simulation& simulation, const protocol::Endpoint& endpoint, Role role) {
+Message welcome(const Simulation& simulation, const protocol::Endpoint& endpoint, Role role,
+                const std::string& owner) {
   Message message;
   Welcome& content = *message.header.mutable_welcome();
   *content.mutable_scene() = simulation.scene;
@@ -79,13 +95,13 @@ Message welcome(const Simulation& simulation, const protocol::Endpoint& endpoint
   const Resumption& resumed = simulation.resumed;
   content.set_done(resumed.step);
   if (role == RIGID) {
-    add_wrenches(message, "wrenches", simulation.initial_wrenches);
+    add_own(message, simulation, owner);
     if (simulation.scene.probe_size() > 0) {
       std::vector<double> rows;
       for (const fluid::Kinematics& body : simulation.bodies) append(rows, body);
       add_probes(message, simulation, rows);
     }
-    if (resumed.step > 0 && simulation.has_free_body()) {
+    if (resumed.step > 0 && simulation.has_free_body() && owner.empty()) {
       message.add_array<double>("state", resumed.rigid, {resumed.rigid.size()});
       content.set_state_build(resumed.rigid_build);
     }

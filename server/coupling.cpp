@@ -20,17 +20,6 @@ constexpr milliseconds kPollEvery{5};  // between steps
 constexpr milliseconds kBeatEvery{1000};
 constexpr int kMostMessages = 256;  // dealt with at once: a flood must not keep the run from its deadlines
 
-Exchange make_exchange(const Simulation& simulation) {
-  const sluice::Coupling& coupling = simulation.coupling.coupling;
-  return {simulation.bodies.size(),
-          simulation.clock.steps(),
-          {.lock_step = simulation.has_free_body(),
-           .steps_per_exchange = coupling.steps_per_exchange(),
-           .steps_per_output = simulation.clock.steps_per_interval(),
-           .is_iterated = simulation.is_iterated(),
-           .done = simulation.resumed.step}};
-}
-
 }  // namespace
 
 std::string late(std::string_view what, milliseconds deadline) {
@@ -44,51 +33,52 @@ Coupling::Coupling(const Simulation& simulation, Sockets& sockets, const Options
       bodies_(simulation.bodies.size()),
       lock_step_(simulation.has_free_body()),
       is_iterated_(simulation.is_iterated()),
+      owners_(simulation),
       session_(
-          sockets.exchange, {.rigid = bodies_ > 0, .recorder = options.expect_recorder},
-          [this](Role role) {
-            Message message = welcome(simulation_, sockets_.endpoint, role);
-            if (role == RIGID && lock_step_)
-              message.header.mutable_welcome()->set_wants_state(checkpoints_.wanted());
+          sockets.exchange, {.owners = owners_.names(), .recorder = options.expect_recorder},
+          [this](const Session::Seat& seat) {
+            Message message = welcome(simulation_, sockets_.endpoint, seat.role, seat.owner);
+            if (seat == Session::Seat(RIGID) && lock_step_)
+              message.header.mutable_welcome()->set_wants_state(has_checkpoints());
             return message;
           },
           simulation.resumed.run_id),
-      exchange_(make_exchange(simulation)),
       log_(bodies_),
       recorder_(sockets.record),
       checkpoints_(options.checkpoint, simulation, options.expect_recorder),
       publisher_(sockets.publish),
       progress_(simulation.resumed.step),
-      step_(simulation.resumed.step) {
-  for (const fluid::Kinematics& body : simulation.bodies) append(rows_, body);
-}
+      step_(simulation.resumed.step) {}
 
 void Coupling::wait_for_participants() {
   service(milliseconds(0));  // who is waiting already is taken in even when nobody is needed
   wait_until([this] { return session_.complete(); }, options_.start_deadline,
              [this] {
-               const bool rigid_missing = bodies_ > 0 && !session_.present(RIGID);
-               return rigid_missing ? Stop(End::PARTICIPANT_TIMEOUT,
-                                           late("the rigid process did not join", options_.start_deadline))
-                                    : Stop(End::RECORDER_LOST,
-                                           late("the recorder did not join", options_.start_deadline));
+               for (const std::string& owner : owners_.names())
+                 if (const Session::Seat seat(RIGID, owner); !session_.present(seat))
+                   return Stop(End::PARTICIPANT_TIMEOUT,
+                               late(name_of(seat) + " did not join", options_.start_deadline));
+               return Stop(End::RECORDER_LOST, late("the recorder did not join", options_.start_deadline));
              });
   session_.begin();
   progress_ = Progress(step_);
-  if (checkpoints_.wanted() && lock_step_ && !gives_state_)
+  if (checkpoints_.wanted() && owners_.has_others())
+    spdlog::warn("no checkpoints will be written: bodies have owners, who do not give their state");
+  else if (checkpoints_.wanted() && lock_step_ && !gives_state_)
     spdlog::warn("no checkpoints will be written: the rigid process does not give its state");
 }
 
 std::uint64_t Coupling::exchange_end(std::uint64_t first) {
   if (!lock_step_) return first;
   wait_for_kinematics(first);
-  return exchange_.last_step();
+  return owners_.of("").last_step();
 }
 
 void Coupling::wait_for_kinematics(std::uint64_t step) {
-  wait_until([&] { return exchange_.has(step); }, options_.deadline,
+  wait_until([&] { return owners_.late_with(step) == nullptr; }, options_.deadline,
              [&] {
-               const std::string what = fmt::format("the rigid process sent no kinematics of step {}", step);
+               const std::string who = name_of({RIGID, *owners_.late_with(step)});
+               const std::string what = fmt::format("{} sent no kinematics of step {}", who, step);
                return Stop(End::PARTICIPANT_TIMEOUT, late(what, options_.deadline));
              });
 }
@@ -96,9 +86,8 @@ void Coupling::wait_for_kinematics(std::uint64_t step) {
 std::span<const fluid::Kinematics> Coupling::kinematics(std::uint64_t step) {
   if (bodies_ == 0) return {};
   wait_for_kinematics(step);
-  const std::span<const double> rows = exchange_.rows(step);
-  rows_.assign(rows.begin(), rows.end());
-  return exchange_.kinematics(step);
+  owners_.take(step);
+  return owners_.kinematics();
 }
 
 void Coupling::answer(std::uint64_t step, std::span<const double> indicators) {
@@ -107,34 +96,39 @@ void Coupling::answer(std::uint64_t step, std::span<const double> indicators) {
   if (bodies_ == 0) return;
   const std::span<const fluid::Wrench> wrenches = simulation_.solver->wrenches();
   if (options_.expect_recorder)
-    log_.add(step, rows_, wrenches, simulation_.solver->wrench_parts(), exchange_.ledger(), indicators);
-  if (std::optional<Message> reply = exchange_.answer(step, wrenches, probes_for_participant(step))) {
-    stamp(reply->header);
-    session_.send(RIGID, std::move(*reply));
+    log_.add(step, owners_.rows(), wrenches, simulation_.solver->wrench_parts(), owners_.ledger(),
+             indicators);
+  send(owners_.answer(step, wrenches, probes()));
+}
+
+void Coupling::send(std::vector<Owners::Reply> replies) {
+  for (Owners::Reply& reply : replies) {
+    stamp(reply.message.header);
+    session_.send({RIGID, reply.owner}, std::move(reply.message));
   }
 }
 
-std::vector<double> Coupling::probes_for_participant(std::uint64_t step) const {
-  const bool is_output = step % simulation_.clock.steps_per_interval() == 0;
-  if (!wants_probes_ || !is_output || step != exchange_.last_step()) return {};
-  return probe_rows(simulation_, rows_);
+Owners::Probes Coupling::probes() const {
+  return [this] { return probe_rows(simulation_, owners_.rows()); };
 }
 
 bool Coupling::repeats() {
   if (is_iterated_) {
-    wait_until([&] { return exchange_.is_decided(); }, options_.deadline,
+    const Exchange& exchange = owners_.of("");
+    wait_until([&] { return exchange.is_decided(); }, options_.deadline,
                [&] {
                  const std::string what = fmt::format(
                      "the rigid process neither accepted nor repeated the exchange up to step {}", step_);
                  return Stop(End::PARTICIPANT_TIMEOUT, late(what, options_.deadline));
                });
-    if (exchange_.is_repeated()) {
+    if (exchange.is_repeated()) {
       log_.drop();
       return true;
     }
+    accepted_ = exchange.accepted();
+    send(owners_.answer_others(step_, simulation_.solver->wrenches(), probes()));
   }
-  const Accepted& accepted = exchange_.accepted();
-  log_.accept(is_iterated_ ? accepted.iterations() : 1, accepted.residual());
+  log_.accept(is_iterated_ ? accepted_.iterations() : 1, accepted_.residual());
   if (log_.full()) record_log();
   return false;
 }
@@ -143,7 +137,7 @@ void Coupling::output(std::uint64_t step) {
   publisher_.update();
   const bool published = publisher_.wanted("frame");
   if (!published && !options_.expect_recorder) return;
-  Message message = frame(simulation_, step, rows_);
+  Message message = frame(simulation_, step, owners_.rows());
   stamp(message.header);
   ++outcome_.frames_serialised;
   count(message);
@@ -177,7 +171,7 @@ void Coupling::end(Outcome& outcome) {
     outcome.detail += fmt::format("; {} messages up to step {} are recorded", recorder_.acknowledged(),
                                   recorder_.acknowledged_step());
   }
-  session_.send(RIGID, message());
+  for (const std::string& owner : owners_.names()) session_.send({RIGID, owner}, message());
   publisher_.update();
   publish_status();  // where the run has come to, however short it was
   publisher_.publish("status", message());
@@ -214,32 +208,32 @@ void Coupling::service(milliseconds timeout) {
 
 void Coupling::dispatch(const Session::Inbound& inbound) {
   const Header& header = inbound.message.header;
+  const Session::Seat& seat = inbound.seat;
   try {
     if (header.has_hello()) {
-      // A rigid process in the place of one that went before the run began starts over.
-      if (inbound.role != RIGID) return;
-      exchange_ = make_exchange(simulation_);
-      wants_probes_ = header.hello().probes();
+      if (seat.role != RIGID) return;
+      owners_.join(seat.owner, header.hello().probes());
+      if (!seat.owner.empty()) return;
       rigid_state_ = {};
       gives_state_ = header.hello().gives_state();
-    } else if (inbound.role == RIGID && header.has_kinematics()) {
-      std::optional<Message> reply = exchange_.accept(inbound.message);
+    } else if (seat.role == RIGID && header.has_kinematics()) {
+      std::optional<Message> reply = owners_.of(seat.owner).accept(inbound.message);
       if (!reply) return;
       stamp(reply->header);
-      session_.send(RIGID, std::move(*reply));
-    } else if (inbound.role == RIGID && header.has_accepted()) {
-      exchange_.accept_exchange(header.accepted());
-    } else if (inbound.role == RIGID && header.has_state()) {
+      session_.send(seat, std::move(*reply));
+    } else if (seat.role == RIGID && header.has_accepted()) {
+      owners_.of(seat.owner).accept_exchange(header.accepted());
+    } else if (seat == Session::Seat(RIGID) && header.has_state()) {
       take_state(inbound.message);
-    } else if (inbound.role == RECORDER && header.has_acknowledgement()) {
+    } else if (seat.role == RECORDER && header.has_acknowledgement()) {
       recorder_.acknowledge(header.acknowledgement().sequence());
     } else {
       throw Refused(Refusal::BAD_MESSAGE,
                     fmt::format("message content {} is not for the role {} to send",
-                                static_cast<int>(header.content_case()), Role_Name(inbound.role)));
+                                static_cast<int>(header.content_case()), Role_Name(seat.role)));
     }
   } catch (const Refused& refused) {
-    session_.refuse(inbound.role, refused);
+    session_.refuse(seat, refused);
   }
 }
 

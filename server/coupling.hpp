@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "server/checkpoints.hpp"
-#include "server/exchange.hpp"
 #include "server/exchange_logger.hpp"
+#include "server/owners.hpp"
 #include "server/progress.hpp"
 #include "server/publisher.hpp"
 #include "server/record_stream.hpp"
@@ -41,18 +41,18 @@ class Coupling {
 
   void wait_for_participants();
 
-  // The bodies' poses over a step; waits for the rigid process. Empty when the scene has no bodies.
+  // The bodies' poses over a step; waits for who moves them. Empty when the scene has no bodies.
   std::span<const fluid::Kinematics> kinematics(std::uint64_t step);
   // The last step that may be taken before the rigid process has to be heard again; waits for it.
   std::uint64_t exchange_end(std::uint64_t first);
-  // The step is done: logs the exchange, with the bodies' stability, and answers the rigid process with the
+  // The step is done: logs the exchange, with the bodies' stability, and answers who moves them with the
   // solver's wrenches.
   void answer(std::uint64_t step, std::span<const double> indicators);
   // Whether the steps answered since exchange_end are to be done again, from the state before them; waits for
   // the rigid process where exchanges are iterated. When not, they are logged.
   bool repeats();
   // Of an iterated exchange that is not done again, what the rigid process said of it.
-  [[nodiscard]] const Accepted& accepted() const { return exchange_.accepted(); }
+  [[nodiscard]] const Accepted& accepted() const { return accepted_; }
   // Hands the state to the recorder and the watchers; waits while the recorder is too far behind.
   void output(std::uint64_t step);
   // Keeps the state after an output step, and writes it to disk when that is due and the recorder has all up
@@ -78,12 +78,15 @@ class Coupling {
   void record_log();
   void drain_recorder();
   void take_state(const protocol::Message& message);
+  // Whether checkpoints are wanted and can be written: who moves bodies with an owner does not give its
+  // state.
+  [[nodiscard]] bool has_checkpoints() const { return checkpoints_.wanted() && !owners_.has_others(); }
   void write_checkpoint();
   void write_last_checkpoint(Outcome& outcome);
   void bring_to_recorder(Outcome& outcome, const std::function<void()>& send);
   void publish_status();
-  // What the probes measure, to who asked for it where the answer ends with an output; else nothing.
-  [[nodiscard]] std::vector<double> probes_for_participant(std::uint64_t step) const;
+  void send(std::vector<Owners::Reply> replies);
+  [[nodiscard]] Owners::Probes probes() const;
   // Adds run id, version and time to a message that does not go through the session.
   void stamp(Header& header) const;
 
@@ -92,9 +95,9 @@ class Coupling {
   Options options_;
   std::size_t bodies_;
   bool lock_step_, is_iterated_;
-  bool wants_probes_ = false;  // the rigid process, with its answers
+  Owners owners_;
   Session session_;
-  Exchange exchange_;
+  Accepted accepted_;
   ExchangeLogger log_;
   RecordStream recorder_;
   Checkpoints checkpoints_;
@@ -110,7 +113,6 @@ class Coupling {
   Publisher publisher_;
   Progress progress_;
   std::chrono::steady_clock::time_point polled_;
-  std::vector<double> rows_;        // kinematics of the last step
   std::vector<double> indicators_;  // of the bodies, at the last step
   std::uint64_t step_ = 0;          // done
   Outcome outcome_;                 // what of it is counted on the way

@@ -10,7 +10,7 @@ namespace sluice::server {
 using protocol::Message;
 
 void Coupling::checkpoint(std::uint64_t step) {
-  if (!checkpoints_.wanted() || (lock_step_ && !gives_state_)) return;
+  if (!has_checkpoints() || (lock_step_ && !gives_state_)) return;
   if (lock_step_)
     wait_until([&] { return rigid_state_.step == step; }, options_.deadline,
                [&] {

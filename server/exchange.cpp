@@ -189,15 +189,6 @@ std::span<const double> Exchange::rows(std::uint64_t step) const {
   return std::span<const double>(batch.kinematics).subspan((step - batch.first_step) * size, size);
 }
 
-std::span<const fluid::Kinematics> Exchange::kinematics(std::uint64_t step) {
-  const std::span<const double> all = rows(step);
-  current_.clear();
-  for (std::size_t b = 0; b < bodies_; ++b) {
-    current_.push_back(read_kinematics(all.subspan(b * kKinematicsRow, kKinematicsRow)));
-  }
-  return current_;
-}
-
 std::optional<Message> Exchange::answer(std::uint64_t step, std::span<const fluid::Wrench> wrenches,
                                         std::span<const double> probes) {
   assert(has(step) && wrenches.size() == bodies_);

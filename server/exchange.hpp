@@ -12,12 +12,13 @@
 
 namespace sluice::server {
 
-// The kinematics the rigid process sent for steps to come, and the replies it is owed. Knows no socket.
+// The kinematics that one who moves bodies sent for steps to come, and the replies it is owed. Knows no
+// socket.
 //
-// Sequences are contiguous from 1, steps from the first that is not done. When a body is free every message
-// is one exchange, as the next needs its answer; otherwise messages hold up to kMostSteps steps and up to
-// kMostUnanswered of them wait here. Where exchanges are iterated the rigid process sends the steps of one
-// again, or accepts it, before it goes on.
+// Sequences are contiguous from 1, steps from the first that is not done. In lock-step, when a body is free,
+// every message is one exchange, as the next needs its answer; otherwise messages hold up to kMostSteps steps
+// and up to kMostUnanswered of them wait here. Where exchanges are iterated the rigid process sends the steps
+// of one again, or accepts it, before it goes on.
 class Exchange {
  public:
   static constexpr std::uint32_t kMostSteps = 256;
@@ -42,8 +43,7 @@ class Exchange {
   [[nodiscard]] bool has(std::uint64_t step) const;
   // Of the message that waits first. Precondition: has(step) for one of its steps.
   [[nodiscard]] std::uint64_t last_step() const;
-  [[nodiscard]] std::span<const fluid::Kinematics> kinematics(std::uint64_t step);
-  // The rows they came in, bit for bit.
+  // As the rows that they came in.
   [[nodiscard]] std::span<const double> rows(std::uint64_t step) const;
 
   // The ledger that came with them; zeros where none did.
@@ -84,7 +84,6 @@ class Exchange {
   std::uint64_t last_step_ = 0;
   std::deque<Batch> batches_;              // not answered yet
   std::deque<protocol::Message> replies_;  // the last kMostUnanswered
-  std::vector<fluid::Kinematics> current_;
 
   // An exchange that is answered and neither accepted nor repeated.
   struct Open {

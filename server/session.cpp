@@ -15,20 +15,6 @@ namespace {
 
 using protocol::Message;
 
-// Names a role in messages to people.
-std::string name_of(Role role) {
-  switch (role) {
-    case RIGID:
-      return "the rigid process";
-    case RECORDER:
-      return "the recorder";
-    case WATCHER:
-      return "a watcher";
-    default:
-      return "a peer without a role";
-  }
-}
-
 // 64 bits nobody can guess; never 0, which is what an absent token reads as.
 std::uint64_t random_bits() {
   std::random_device device;
@@ -38,19 +24,36 @@ std::uint64_t random_bits() {
 
 }  // namespace
 
+std::string name_of(const Session::Seat& seat) {
+  switch (seat.role) {
+    case RIGID:
+      return seat.owner.empty() ? "the rigid process" : fmt::format("the owner '{}' of bodies", seat.owner);
+    case RECORDER:
+      return "the recorder";
+    case WATCHER:
+      return "a watcher";
+    default:
+      return "a peer without a role";
+  }
+}
+
 Session::Session(zmq::socket_t& router, Needs needs, Greeting greeting, const std::string& run_id)
     : router_(router),
-      needs_(needs),
+      needs_(std::move(needs)),
       greeting_(std::move(greeting)),
       run_id_(run_id.empty() ? fmt::format("{:016x}", random_bits()) : run_id) {}
 
 bool Session::complete() const {
-  return (!needs_.rigid || present(RIGID)) && (!needs_.recorder || present(RECORDER));
+  const bool moved =
+      std::all_of(needs_.owners.begin(), needs_.owners.end(), [this](const std::string& owner) {
+        return present({RIGID, owner});
+      });
+  return moved && (!needs_.recorder || present(RECORDER));
 }
 
-Session::Peers::const_iterator Session::holder(Role role) const {
+Session::Peers::const_iterator Session::holder(const Seat& seat) const {
   return std::find_if(peers_.begin(), peers_.end(),
-                      [role](const auto& entry) { return entry.second.role == role; });
+                      [&seat](const auto& entry) { return entry.second.seat == seat; });
 }
 
 bool Session::serve(const std::function<void(const Inbound&)>& handle) {
@@ -94,49 +97,60 @@ std::optional<Session::Inbound> Session::admit(protocol::Received received) {
     deliver(received.identity, answer);  // heartbeat() notices who is gone
     return std::nullopt;
   }
-  return Inbound{peer->second.role, std::move(received.message)};
+  return Inbound{peer->second.seat, std::move(received.message)};
 }
 
 // A Hello that comes again on the same connection gets its Welcome again and changes nothing.
 std::optional<Session::Inbound> Session::greet(const std::string& identity, Message hello) {
-  const Role role = hello.header.hello().role();
-  check_role(identity, role);
-  const std::string& program = hello.header.hello().program();
-  const bool joined = peers_.try_emplace(identity, Peer{role, random_bits(), program, {}}).second;
+  const Hello& content = hello.header.hello();
+  const Seat seat(content.role(), content.role() == RIGID ? content.owner() : std::string());
+  check_seat(identity, seat);
+  const std::string& program = content.program();
+  const bool joined = peers_.try_emplace(identity, Peer{seat, random_bits(), program, {}}).second;
 
-  Message welcome = greeting_(role);
+  Message welcome = greeting_(seat);
   if (!deliver(identity, welcome)) {
     lose(identity);
     return std::nullopt;
   }
   if (!joined) return std::nullopt;
-  spdlog::info("{} joined ({})", name_of(role), program);
-  return Inbound{role, std::move(hello)};
+  spdlog::info("{} joined ({})", name_of(seat), program);
+  return Inbound{seat, std::move(hello)};
 }
 
-void Session::check_role(const std::string& identity, Role role) {
-  if (role != RIGID && role != RECORDER && role != WATCHER) {
+// Throws Refused where nobody is wanted in that seat.
+void Session::check_need(const Seat& seat) const {
+  if (seat.role != RIGID && seat.role != RECORDER && seat.role != WATCHER)
     throw Refused(Refusal::BAD_MESSAGE,
-                  fmt::format("role {} is none of RIGID, RECORDER, WATCHER", static_cast<int>(role)));
-  }
-  if (role == RIGID && !needs_.rigid) throw Refused(Refusal::NOT_NEEDED, "the scene has no bodies");
-  if (role == RECORDER && !needs_.recorder) {
+                  fmt::format("role {} is none of RIGID, RECORDER, WATCHER", static_cast<int>(seat.role)));
+  if (seat.role == RECORDER && !needs_.recorder)
     throw Refused(Refusal::NOT_NEEDED, "no recorder is expected; start the server with --expect-recorder");
-  }
+  const std::vector<std::string>& owners = needs_.owners;
+  if (seat.role != RIGID || std::find(owners.begin(), owners.end(), seat.owner) != owners.end()) return;
+  if (owners.empty()) throw Refused(Refusal::NOT_NEEDED, "the scene has no bodies");
+  if (seat.owner.empty())
+    throw Refused(Refusal::NOT_NEEDED,
+                  fmt::format("every body of the scene has an owner: {}; say in Hello which one this is",
+                              fmt::join(owners, ", ")));
+  throw Refused(Refusal::NOT_NEEDED, fmt::format("no body of the scene has the owner '{}'", seat.owner));
+}
+
+void Session::check_seat(const std::string& identity, const Seat& seat) {
+  check_need(seat);
   if (const auto peer = peers_.find(identity); peer != peers_.end()) {
-    if (peer->second.role == role) return;
+    if (peer->second.seat == seat) return;
     throw Refused(Refusal::BAD_MESSAGE,
-                  fmt::format("this connection has the role {} already", Role_Name(peer->second.role)));
+                  fmt::format("this connection is {} already", name_of(peer->second.seat)));
   }
-  const auto taken = holder(role);
-  if (role == WATCHER || taken == peers_.end()) return;
+  const auto taken = holder(seat);
+  if (seat.role == WATCHER || taken == peers_.end()) return;
   // A holder that is gone is noticed here at the latest.
   Message probe;
   probe.header.mutable_heartbeat();
   const std::string holder_identity = taken->first;
   if (deliver(holder_identity, probe)) {
     throw Refused(Refusal::ROLE_TAKEN,
-                  fmt::format("{} of this run is {} already", name_of(role), taken->second.program));
+                  fmt::format("{} of this run is {} already", name_of(seat), taken->second.program));
   }
   lose(holder_identity);
 }
@@ -150,15 +164,15 @@ bool Session::deliver(const std::string& identity, Message& message) {
   return protocol::send(router_, message, identity);
 }
 
-void Session::send(Role role, Message message) {
-  const auto peer = holder(role);
+void Session::send(const Seat& seat, Message message) {
+  const auto peer = holder(seat);
   if (peer == peers_.end()) return;
   const std::string identity = peer->first;
   if (!deliver(identity, message)) lose(identity);
 }
 
-void Session::refuse(Role role, const Refused& refused) {
-  const auto peer = holder(role);
+void Session::refuse(const Seat& seat, const Refused& refused) {
+  const auto peer = holder(seat);
   if (peer == peers_.end()) return;
   const std::string identity = peer->first;
   peers_.at(identity).last_refusal = refused.what();
@@ -194,12 +208,13 @@ void Session::lose(const std::string& identity) {
   if (entry == peers_.end()) return;
   const Peer peer = entry->second;
   peers_.erase(entry);
-  if (peer.role == WATCHER) return;
+  const Role role = peer.seat.role;
+  if (role == WATCHER) return;
 
-  std::string text = fmt::format("{} ({}) is gone", name_of(peer.role), peer.program);
+  std::string text = fmt::format("{} ({}) is gone", name_of(peer.seat), peer.program);
   if (!peer.last_refusal.empty()) text += "; it was last refused a message: " + peer.last_refusal;
-  if (peer.role == RECORDER && state_ != State::WAITING) throw Stop(End::RECORDER_LOST, text);
-  if (peer.role == RIGID && state_ == State::RUNNING) throw Stop(End::PARTICIPANT_LOST, text);
+  if (role == RECORDER && state_ != State::WAITING) throw Stop(End::RECORDER_LOST, text);
+  if (role == RIGID && state_ == State::RUNNING) throw Stop(End::PARTICIPANT_LOST, text);
   spdlog::warn("{}", text);
 }
 

@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "protocol/framing.hpp"
 #include "server/stop.hpp"
@@ -21,15 +23,22 @@ namespace sluice::server {
 class Session {
  public:
   enum class State { WAITING, RUNNING, ENDING };
+  // Of a participant: its role, and of a RIGID the owner whose bodies it moves (Body.owner).
+  struct Seat {
+    Seat(Role its_role, std::string its_owner = {}) : role(its_role), owner(std::move(its_owner)) {}
+    bool operator==(const Seat&) const = default;
+    Role role;
+    std::string owner;
+  };
   struct Needs {
-    bool rigid = false;
+    std::vector<std::string> owners;
     bool recorder = false;
   };
-  // The Welcome for a role, without run id and token.
-  using Greeting = std::function<protocol::Message(Role)>;
+  // The Welcome for a seat, without run id and token.
+  using Greeting = std::function<protocol::Message(const Seat&)>;
   // A message of a participant in good standing; its Hello when it has just joined.
   struct Inbound {
-    Role role;
+    Seat seat;
     protocol::Message message;
   };
 
@@ -40,7 +49,7 @@ class Session {
   void finish() { state_ = State::ENDING; }
 
   [[nodiscard]] const std::string& run_id() const { return run_id_; }
-  [[nodiscard]] bool present(Role role) const { return holder(role) != peers_.end(); }
+  [[nodiscard]] bool present(const Seat& seat) const { return holder(seat) != peers_.end(); }
   // Everyone the run needs has joined.
   [[nodiscard]] bool complete() const;
 
@@ -48,9 +57,9 @@ class Session {
   // are refused are dealt with inside; what concerns the run goes to `handle`.
   bool serve(const std::function<void(const Inbound&)>& handle);
 
-  // Sends to the participant in a role; one that cannot be reached is lost.
-  void send(Role role, protocol::Message message);
-  void refuse(Role role, const Refused& refused);
+  // Sends to the participant on a seat; one that cannot be reached is lost.
+  void send(const Seat& seat, protocol::Message message);
+  void refuse(const Seat& seat, const Refused& refused);
 
   // Sends everyone a heartbeat when the last ones are older than `interval`; who cannot be reached twice is
   // lost.
@@ -58,7 +67,7 @@ class Session {
 
  private:
   struct Peer {
-    Role role;
+    Seat seat;
     std::uint64_t token;
     std::string program;
     std::string last_refusal;
@@ -66,10 +75,11 @@ class Session {
   };
   using Peers = std::map<std::string, Peer>;  // by the ROUTER's identity of the connection
 
-  [[nodiscard]] Peers::const_iterator holder(Role role) const;
+  [[nodiscard]] Peers::const_iterator holder(const Seat& seat) const;
   std::optional<Inbound> admit(protocol::Received received);
   std::optional<Inbound> greet(const std::string& identity, protocol::Message hello);
-  void check_role(const std::string& identity, Role role);
+  void check_seat(const std::string& identity, const Seat& seat);
+  void check_need(const Seat& seat) const;
   bool deliver(const std::string& identity, protocol::Message& message);
   void refuse(const std::string& identity, const Refused& refused);
   void lose(const std::string& identity);
@@ -84,5 +94,8 @@ class Session {
   std::chrono::steady_clock::time_point last_heartbeat_;
   int complaints_ = 0;
 };
+
+// Names who sits there in messages to people.
+std::string name_of(const Session::Seat& seat);
 
 }  // namespace sluice::server

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fluid/body_step.hpp"
+#include "protocol/body_kind.hpp"
 #include "server/stability_watch.hpp"
 
 namespace sluice::server {
@@ -40,8 +41,12 @@ CouplingPlan plan_coupling(const Scene& scene, const fluid::Setup& setup, double
     body.set_allowed(allowed_indicator(steps));
   }
   if (plan.coupling.scheme() != AUTO) return plan;
-  const bool all_stable = std::all_of(plan.stability.begin(), plan.stability.end(),
-                                      [](const BodyStability& b) { return b.indicator() <= b.allowed(); });
+  // Who else moves a body does not repeat exchanges.
+  bool all_stable = true;
+  for (const int b : protocol::bodies_of(scene, "")) {
+    const BodyStability& body = plan.stability[static_cast<std::size_t>(b)];
+    all_stable = all_stable && body.indicator() <= body.allowed();
+  }
   plan.coupling.set_scheme(all_stable ? EXPLICIT : IMPLICIT);
   // Relaxation by one number finds many steps at once of a light body only badly.
   if (!all_stable) plan.coupling.set_steps_per_exchange(1);
@@ -50,15 +55,17 @@ CouplingPlan plan_coupling(const Scene& scene, const fluid::Setup& setup, double
 
 std::vector<std::string> stability_warnings(const Scene& scene, const CouplingPlan& plan) {
   std::vector<std::string> lines;
-  if (plan.coupling.scheme() != EXPLICIT) return lines;
   for (int b = 0; b < scene.body_size(); ++b) {
+    const bool is_explicit = plan.coupling.scheme() == EXPLICIT || !scene.body(b).owner().empty();
     const BodyStability& body = plan.stability[static_cast<std::size_t>(b)];
-    if (body.indicator() <= body.allowed()) continue;
+    if (!is_explicit || body.indicator() <= body.allowed()) continue;
     lines.push_back(fmt::format(
         "body '{}': 2 rho c A t/m is {:.3g}, up to {:.3g} is stable with {} steps an exchange; take fewer, "
         "or "
-        "coupling {{ scheme: AUTO }}",
-        scene.body(b).name(), body.indicator(), body.allowed(), plan.coupling.steps_per_exchange()));
+        "{}",
+        scene.body(b).name(), body.indicator(), body.allowed(), plan.coupling.steps_per_exchange(),
+        scene.body(b).owner().empty() ? "coupling { scheme: AUTO }"
+                                      : "leave its owner out: `sluice rigid` can repeat exchanges"));
   }
   return lines;
 }

@@ -24,7 +24,8 @@ double largest_exchange_step(const Scene& scene, const fluid::Setup& setup);
 // From a scene with its defaults and fluid steps of `step` [s]. AUTO becomes one of the others.
 CouplingPlan plan_coupling(const Scene& scene, const fluid::Setup& setup, double step);
 
-// One line for every free body beyond what the explicit scheme allows, where it is in use.
+// One line for every free body beyond what the explicit scheme allows, where that is in use: where the plan
+// says so, and of bodies with an owner.
 std::vector<std::string> stability_warnings(const Scene& scene, const CouplingPlan& plan);
 
 }  // namespace sluice::server

@@ -54,10 +54,11 @@ Connection::~Connection() {
   zmq_socket_monitor(socket_.handle(), nullptr, 0);
 }
 
-void Connection::greet(Role role, const std::string& program) {
+void Connection::greet(Role role, const std::string& program, const std::string& owner) {
   Message hello;
   hello.header.mutable_hello()->set_role(role);
   hello.header.mutable_hello()->set_program(program);
+  hello.header.mutable_hello()->set_owner(owner);
   send(std::move(hello));
 }
 

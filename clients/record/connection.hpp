@@ -25,8 +25,8 @@ class Connection {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  // Says Hello; the answer comes by receive().
-  void greet(Role role, const std::string& program);
+  // Says Hello, as a RIGID for the bodies of an owner; the answer comes by receive().
+  void greet(Role role, const std::string& program, const std::string& owner = {});
   // Sends with version, run, token and the next sequence filled in. Throws PeerLost.
   void send(protocol::Message message);
   // The next message that is not a heartbeat, if one is waiting; a Welcome is taken note of. Throws

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <deque>
 #include <fstream>
 
 #include "clients/record/connection.hpp"
@@ -36,18 +37,24 @@ std::filesystem::path write_scene(const Scene& scene, const std::string& endpoin
   return path;
 }
 
-// Sends the recorded kinematics, as far ahead as the protocol allows.
+// Sends the recorded kinematics of an owner's bodies, as far ahead as the protocol allows.
 class RecordedRigid {
  public:
-  RecordedRigid(const Reader& recording, Connection& connection)
+  RecordedRigid(const Reader& recording, zmq::context_t& context, const protocol::Endpoint& endpoint,
+                const std::string& owner)
       : recording_(recording),
-        connection_(connection),
-        lock_step_(protocol::is_any_body_ever_free(recording.scene())),
-        is_iterated_(recording.welcome().coupling().scheme() == IMPLICIT),
+        connection_(context, endpoint, std::nullopt),
+        bodies_(protocol::bodies_of(recording.scene(), owner)),
+        lock_step_(owner.empty() && protocol::is_any_body_ever_free(recording.scene())),
+        is_iterated_(lock_step_ && recording.welcome().coupling().scheme() == IMPLICIT),
         clock_(recording.welcome().interval_ns(), recording.welcome().steps_per_interval(),
                recording.welcome().steps()),
-        ahead_(lock_step_ ? 1 : kMostUnanswered) {}
+        ahead_(lock_step_ ? 1 : kMostUnanswered) {
+    connection_.greet(RIGID, "sluice-replay", owner);
+  }
 
+  [[nodiscard]] zmq::pollitem_t poll_item() { return connection_.poll_item(); }
+  void watch() { connection_.watch(); }
   [[nodiscard]] bool all_answered() const { return sent_ == recording_.exchanges() && unanswered_ == 0; }
 
   void turn() {
@@ -64,10 +71,25 @@ class RecordedRigid {
     return clock_.exchange_end(sent_ + 1, most) - sent_;
   }
 
-  static void add_ledger(Message& message, const Message& log) {
-    const std::vector<std::uint64_t> shape = log.shape("ledger");
-    message.add_array<double>("ledger", log.array<double>("ledger").first(shape[1] * shape[2]),
-                              {shape[1], shape[2]});
+  // The first `steps` steps of an array [steps, bodies, width] of the log, of the bodies moved here.
+  [[nodiscard]] std::vector<double> own_rows(const Message& log, const std::string& name,
+                                             std::uint64_t steps) const {
+    const std::vector<std::uint64_t> shape = log.shape(name);
+    const std::span<const double> all = log.array<double>(name);
+    std::vector<double> rows;
+    for (std::uint64_t step = 0; step < steps; ++step)
+      for (const int b : bodies_) {
+        const auto row = all.subspan((step * shape[1] + static_cast<std::uint64_t>(b)) * shape[2], shape[2]);
+        rows.insert(rows.end(), row.begin(), row.end());
+      }
+    return rows;
+  }
+
+  void add(Message& message, const std::string& name, const Message& log, std::uint64_t steps) const {
+    const std::vector<double> rows = own_rows(log, name, steps);
+    std::vector<std::uint64_t> shape{steps, bodies_.size(), log.shape(name)[2]};
+    if (name == "ledger") shape.erase(shape.begin());
+    message.add_array<double>(name, rows, shape);
   }
 
   // The motion recorded is that of the last iteration.
@@ -95,8 +117,8 @@ class RecordedRigid {
     message.header.set_time_ns(log.header.time_ns());
     message.header.mutable_kinematics()->set_first_step(sent_ + 1);
     message.header.mutable_kinematics()->set_count(count);
-    message.add_array<double>("kinematics", log.array<double>("kinematics"), log.shape("kinematics"));
-    if (lock_step_) add_ledger(message, log);
+    add(message, "kinematics", log, count);
+    if (lock_step_) add(message, "ledger", log, 1);
     connection_.send(std::move(message));
     sent_ += count;
     last_count_ = count;
@@ -104,7 +126,8 @@ class RecordedRigid {
   }
 
   const Reader& recording_;
-  Connection& connection_;
+  Connection connection_;
+  std::vector<int> bodies_;
   bool lock_step_, is_iterated_;
   protocol::StepClock clock_;
   std::uint32_t last_count_ = 0;
@@ -125,7 +148,7 @@ class Redrive {
 
   // The connections first: the server would wait for a recorder that is there.
   ~Redrive() {
-    rigid_connection_.reset();
+    rigid_.clear();
     recorder_.reset();
     server_.signal(SIGTERM);
     server_.wait();
@@ -135,11 +158,8 @@ class Redrive {
 
   RedriveResult run() {
     recorder_->greet(RECORDER, "sluice-replay");
-    if (recording_.scene().body_size() > 0) {
-      rigid_connection_.emplace(context_, protocol::Endpoint::parse(endpoint_.text()), std::nullopt);
-      rigid_connection_->greet(RIGID, "sluice-replay");
-      rigid_.emplace(recording_, *rigid_connection_);
-    }
+    for (const std::string& owner : protocol::owners(recording_.scene()))
+      rigid_.emplace_back(recording_, context_, protocol::Endpoint::parse(endpoint_.text()), owner);
     while (difference_.empty() && !done()) turn();
     return {difference_.empty(), difference_.empty() ? "identical" : difference_};
   }
@@ -160,11 +180,11 @@ class Redrive {
   void turn() {
     if (stop_) throw std::runtime_error("interrupted");
     std::vector<zmq::pollitem_t> items = {{stream_.handle(), 0, ZMQ_POLLIN, 0}, recorder_->poll_item()};
-    if (rigid_connection_) items.push_back(rigid_connection_->poll_item());
+    for (RecordedRigid& rigid : rigid_) items.push_back(rigid.poll_item());
     if (server_.output() >= 0) items.push_back({nullptr, server_.output(), ZMQ_POLLIN, 0});
     wait_for_any(items, kSlice);
     server_.read_output();
-    if (rigid_) rigid_->turn();
+    for (RecordedRigid& rigid : rigid_) rigid.turn();
     if (auto message = recorder_->receive()) compare_welcome(*message);
     while (difference_.empty() && !done() && take_next()) {
     }
@@ -176,7 +196,9 @@ class Redrive {
 
   // A run that was stopped between two frames: the server logs the last exchanges only when it ends.
   void stop_server_after_last_step() {
-    if (stopped_ || !rigid_ || !rigid_->all_answered() || frames_ < recording_.frames()) return;
+    const bool all_answered =
+        std::ranges::all_of(rigid_, [](const RecordedRigid& rigid) { return rigid.all_answered(); });
+    if (stopped_ || rigid_.empty() || !all_answered || frames_ < recording_.frames()) return;
     stopped_ = true;
     server_.signal(SIGTERM);
   }
@@ -184,7 +206,7 @@ class Redrive {
   void watch() {
     if (server_.exit_code()) throw std::runtime_error("the server ended early: " + last_words());
     recorder_->watch();
-    if (rigid_connection_) rigid_connection_->watch();
+    for (RecordedRigid& rigid : rigid_) rigid.watch();
   }
 
   [[nodiscard]] std::string last_words() {
@@ -258,8 +280,7 @@ class Redrive {
   zmq::context_t context_;
   std::optional<Connection> recorder_;
   zmq::socket_t stream_;
-  std::optional<Connection> rigid_connection_;
-  std::optional<RecordedRigid> rigid_;
+  std::deque<RecordedRigid> rigid_;
   bool stopped_ = false;
   std::uint64_t frames_ = 0, steps_ = 0;
   std::string difference_;

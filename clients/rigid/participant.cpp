@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "clients/rigid/convert.hpp"
+#include "clients/rigid/own_part.hpp"
 #include "clients/rigid/participant_link.hpp"
 #include "clients/rigid/window.hpp"
 #include "protocol/build_id.hpp"
@@ -66,22 +67,16 @@ Eigen::Vector3d gravity_of(const Scene& scene) {
   return to_vector(protocol::with_defaults(scene).gravity());
 }
 
-std::vector<double> indicators(const Welcome& welcome) {
-  std::vector<double> values;
-  for (const BodyStability& body : welcome.stability()) values.push_back(body.indicator());
-  return values;
-}
-
 class Participant {
  public:
   Participant(ParticipantLink& link, const protocol::Message& welcome)
       : link_(link),
-        world_(make_world(welcome.header.welcome().scene())),
+        world_(make_world(own_part(welcome.header.welcome()))),
         clock_(welcome.header.welcome().interval_ns(), welcome.header.welcome().steps_per_interval(),
                welcome.header.welcome().steps()),
         coupling_(welcome.header.welcome().coupling()),
         window_(world_, coupling_, gravity_of(welcome.header.welcome().scene()),
-                indicators(welcome.header.welcome()), read_wrenches(welcome, 1, world_.size()).front()),
+                own_indicators(welcome.header.welcome()), read_wrenches(welcome, 1, world_.size()).front()),
         done_(welcome.header.welcome().done()),
         wants_state_(welcome.header.welcome().wants_state()) {
     if (done_ > 0) go_on_from(welcome);

@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "clients/recording/reader.hpp"
+#include "protocol/body_kind.hpp"
 #include "protocol/sim_time.hpp"
 
 namespace sluice::clients {
@@ -100,7 +101,13 @@ void Session::start_participants(const Welcome& welcome) {
     crew_.start("sluice-record", arguments);
     summary_.recording = options_.output.string();
   }
-  if (welcome.scene().body_size() > 0) crew_.start("sluice-rigid", connection());
+  for (const std::string& owner : protocol::owners(welcome.scene())) {
+    if (owner.empty())
+      crew_.start("sluice-rigid", connection());
+    else
+      std::cerr << fmt::format("[sluice] waiting for '{}', the owner of bodies, to join at {}\n", owner,
+                               endpoint_);
+  }
 }
 
 void Session::wait_for_news() {

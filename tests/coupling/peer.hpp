@@ -22,12 +22,14 @@ class Peer {
   explicit Peer(const protocol::Endpoint& endpoint) { exchange_.connect(endpoint.exchange); }
 
   // Says Hello and keeps what a Welcome gives. Returns the answer.
-  protocol::Message hello(Role role, bool gives_state = false, bool probes = false) {
+  protocol::Message hello(Role role, bool gives_state = false, bool probes = false,
+                          const std::string& owner = {}) {
     protocol::Message hello;
     hello.header.mutable_hello()->set_role(role);
     hello.header.mutable_hello()->set_gives_state(gives_state);
     hello.header.mutable_hello()->set_program("test");
     hello.header.mutable_hello()->set_probes(probes);
+    hello.header.mutable_hello()->set_owner(owner);
     send_raw(hello);
     protocol::Message answer = receive();
     if (answer.header.has_welcome()) {

@@ -15,7 +15,7 @@ TEST(Session, TakesInOneMessageACall) {
   zmq::context_t context;
   zmq::socket_t router = protocol::make_socket(context, zmq::socket_type::router);
   protocol::bind(router, endpoint.exchange);
-  server::Session session(router, {.rigid = true, .recorder = false}, [](Role) {
+  server::Session session(router, {.owners = {""}, .recorder = false}, [](const server::Session::Seat&) {
     protocol::Message welcome;
     welcome.header.mutable_welcome();
     return welcome;

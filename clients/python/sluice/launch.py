@@ -57,12 +57,14 @@ def _progress_of(line):
         return None
 
 
-def run(scene, output=None, settings=None, spacing=None, until=None, threads=None, force=False, motion=None, show=None):
+def run(scene, output=None, settings=None, spacing=None, until=None, threads=None, force=False, motion=None, rigid=False,
+        show=None):
     """Runs a scene file to its end; the summary of `sluice run --json` as a dict (status, energies, recording ...).
 
     `settings` changes fields of the scene, {"body[0].density": 500}; `spacing` [m] is one of them. `until` [s] ends the
     run early. `output` is the recording to make, which `force` allows to replace. `motion(endpoint)`, given, moves the
-    bodies in place of `sluice rigid` (sluice.Participant) and returns when the run is over; the summary is then short.
+    bodies in place of `sluice rigid` (sluice.Participant) and returns when the run is over; the summary is then short. With
+    `rigid` it moves those of an owner, and `sluice rigid` those that have none.
     A run that ends before its scene leaves a checkpoint beside the recording, which resume() goes on from.
     `show(fraction)` is told the progress; a bar is drawn on a terminal unless it is given. Raises RunError when the run
     does not finish.
@@ -72,7 +74,7 @@ def run(scene, output=None, settings=None, spacing=None, until=None, threads=Non
     with _telling(scene, show) as tell:
         if motion is not None:
             _require_runnable([str(scene), *_settings(settings)], output, force)
-            return _run_with(motion, ["--scene", *options], output, [], force, tell)
+            return _run_with(motion, ["--scene", *options], output, [], force, tell, rigid)
         return _run_alone(["run", *options], output, force, tell)
 
 
@@ -182,8 +184,8 @@ class _Follower(threading.Thread):
         self.join(timeout=1)
 
 
-def _run_with(motion, serve, output, record, force, tell):
-    """Server and recorder as processes of their own, with these words; the bodies moved here."""
+def _run_with(motion, serve, output, record, force, tell, rigid=False):
+    """Server, recorder and rigid process as processes of their own, with these words; bodies moved here."""
     with tempfile.TemporaryDirectory(prefix="sluice-", dir=os.environ.get("XDG_RUNTIME_DIR")) as directory:
         endpoint = f"ipc://{directory}/run.ipc"
         words = ["serve", *serve, "--listen", endpoint]
@@ -195,6 +197,8 @@ def _run_with(motion, serve, output, record, force, tell):
                 if output:
                     words = ["record", "--connect", endpoint, "-o", str(output), *record] + (["--force"] if force else [])
                     processes.append(start(words, log))
+                if rigid:
+                    processes.append(start(["rigid", "--connect", endpoint], log))
                 follower = _Follower(endpoint, tell)
                 try:
                     motion(endpoint)

@@ -1,4 +1,5 @@
-"""A participant that moves the bodies of a run in place of `sluice rigid`; protocol/README.md is the reference."""
+"""A participant that moves bodies of a run, all in place of `sluice rigid` or those of an owner beside it;
+protocol/README.md is the reference."""
 
 import numpy as np
 import zmq
@@ -13,21 +14,23 @@ __all__ = ["Clock", "Ended", "Participant"]
 class Participant:
     """The connection: greets, sends kinematics, gives wrenches and what the probes measure.
 
-    `scene` is the run's scene (scene.proto), `clock` its Clock, `wrenches` [bodies, 6] the fluid's force [N] and
-    moment about the centre of mass [N m] on every body at the last step answered, at time 0 to begin with. `done` are the
+    `scene` is the run's scene (scene.proto), `clock` its Clock, `bodies` the bodies that it moves: those whose `owner` the
+    scene says to be the one given here, else those without. `wrenches` [bodies, 6] is the fluid's force [N] and
+    moment about the centre of mass [N m] on each of them at the last step answered, at time 0 to begin with. `done` are the
     steps that were done before it joined: 0, or in a run that is resumed those up to the checkpoint; the next comes first.
     """
 
-    def __init__(self, endpoint, program="python", keys=None):
+    def __init__(self, endpoint, program="python", keys=None, owner=""):
         self._context = zmq.Context()
         self._sequence = 0
         try:
-            hello = messages.Hello(role=messages.RIGID, program=program, probes=True)
+            hello = messages.Hello(role=messages.RIGID, program=program, probes=True, owner=owner)
             self._link = Link(self._context, endpoint, hello, keys)
         except BaseException:
             self._context.destroy(linger=0)
             raise
         self.scene, self.clock = self._link.welcome.scene, Clock(self._link.welcome)
+        self.bodies = [self.scene.body[b] for b in self._link.welcome.body]
         self.done = self._link.welcome.done
         self.wrenches = self._link.arrays["wrenches"]
         self._probes = self._link.arrays.get("probe")
@@ -47,11 +50,11 @@ class Participant:
         return probes.columns(self.scene.probe[number].WhichOneof("kind"), self._probes[number])
 
     def step(self, step, kinematics):
-        """Sends the bodies' motion over one step, a row [19] a body (messages.proto, Kinematics); the wrenches at its end.
+        """Sends its bodies' motion over one step, a row [19] a body (messages.proto, Kinematics); the wrenches at its end.
 
         Raises Ended when the server has ended the run instead.
         """
-        rows = np.ascontiguousarray(kinematics, dtype="<f8").reshape(1, len(self.scene.body), 19)
+        rows = np.ascontiguousarray(kinematics, dtype="<f8").reshape(1, len(self.bodies), 19)
         self._sequence += 1
         header = messages.Header(sequence=self._sequence, step=step, time_ns=self.clock.time_ns(step))
         header.kinematics.first_step, header.kinematics.count = step, 1
@@ -63,15 +66,15 @@ class Participant:
         return self.wrenches
 
     def drive(self, motions, control=None):
-        """Moves all bodies through the whole run, or what is left of it, until the server ends it; its End, which says why.
+        """Moves its bodies through the whole run, or what is left of it, until the server ends it; its End, which says why.
 
         `motions` has for every body's name an object with row(step, clock), its kinematics [19] over a step, asked for in
         order (sluice.motion). `control(run, time)` is called at the start and at every output, when the probes are fresh, and
         may change what the motions do from then on.
         """
-        names = [body.name for body in self.scene.body]
+        names = [body.name for body in self.bodies]
         if sorted(motions) != sorted(names):
-            raise ValueError(f"there are motions for {sorted(motions)}, the scene's bodies are {names}; give one for each")
+            raise ValueError(f"there are motions for {sorted(motions)}, its bodies are {names}; give one for each")
         try:
             for step in range(self.done + 1, self.clock.steps + 1):
                 if control and (step - 1) % self.clock.steps_per_output == 0:

@@ -8,7 +8,7 @@ import unittest
 import h5py
 import numpy as np
 import sluice
-from scenes import SOURCE, Case
+from scenes import SOURCE, TANK, Case
 from sluice.launch import program
 from sluice.ledger import ledgers
 from sluice.motion import Function
@@ -46,6 +46,43 @@ class RunTest(Case):
         with sluice.Recording(self.directory / "run.h5") as run:
             time, kinematics, _ = run.exchange()
             np.testing.assert_allclose(kinematics[:, 0, 1], 1 + 0.1 * time**2, rtol=1e-12)
+
+    def crane_and_ball(self):
+        """The tank with its gate left to a crane, and a ball over the water."""
+        ball = 'body { name: "ball" ball { radius: 0.2 } density: 500 position: [0.5, 1.2] }'
+        self.scene.write_text(TANK.replace('body { name: "gate"', 'body { name: "gate" owner: "crane"') + ball)
+
+    def drive_crane(self, endpoint):
+        with sluice.Participant(endpoint, owner="crane") as run:
+            self.assertEqual([body.name for body in run.bodies], ["gate"])
+            self.assertEqual(run.wrenches.shape, (1, 6))
+            run.drive({"gate": Function(run.bodies[0], lambda t: (0, 0.1 * t * t))})
+
+    def check_crane_and_ball(self, recording):
+        with sluice.Recording(recording) as run:
+            time, kinematics, _ = run.exchange()
+            np.testing.assert_allclose(kinematics[:, 0, 1], 1 + 0.1 * time**2, rtol=1e-12)
+            np.testing.assert_allclose(kinematics[:, 1, 1], 1.2 - 0.5 * 9.81 * time**2, rtol=1e-9)  # still in the air
+        words = [program(), "replay", str(recording), "--redrive"]
+        redriven = subprocess.run(words, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        self.assertEqual(redriven.stdout, "identical\n", redriven.stderr)
+
+    def test_an_owner_moves_its_body_beside_the_rigid_process(self):
+        self.crane_and_ball()
+        recording = self.directory / "run.h5"
+        sluice.run(self.scene, recording, until=0.1, threads=1, motion=self.drive_crane, rigid=True)
+        self.check_crane_and_ball(recording)
+
+    def test_sluice_run_waits_for_owners_and_says_where(self):
+        self.crane_and_ball()
+        recording, endpoint = self.directory / "run.h5", f"ipc://{self.directory}/run.ipc"
+        words = [program(), "run", str(self.scene), "-o", str(recording), "--until", "0.1", "--listen", endpoint, "--threads", "1"]
+        with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+            self.drive_crane(endpoint)
+            said = process.stderr.read()
+        self.assertEqual(process.returncode, 0, said)
+        self.assertIn(f"waiting for 'crane', the owner of bodies, to join at {endpoint}", said)
+        self.check_crane_and_ball(recording)
 
     def test_the_progress_of_a_run_whose_bodies_are_moved_here_is_told(self):
         told, begun = [], threading.Event()

@@ -250,6 +250,18 @@ INSTANTIATE_TEST_SUITE_P(
               ":9:3: body[0].name: \"energy\" is the name of a record of every run; choose another"},
         Fault{"SameName", 15, "  name: \"gate\"",
               ":15:3: body[1].name: \"gate\" is the name of body[0] too; names must differ"},
+        Fault{"OwnerWithSlash", 9, "  name: \"gate\" owner: \"a/b\"",
+              ":9:16: body[0].owner: \"a/b\" is not 1 to 64 letters, digits, _ or -; choose such a name"},
+        Fault{"JointOfTwoOwners", 12,
+              "  density: 500 owner: \"crane\" } joint { body: \"gate\" to: \"ball\" fixed { }",
+              ":12:33: joint[0]: joins bodies of two owners, \"crane\" and \"\"; who moves one of them does "
+              "not "
+              "know the other"},
+        Fault{
+            "OwnerOfIteratedSteps", 12,
+            "  density: 500 owner: \"crane\" } coupling { scheme: IMPLICIT steps_per_exchange: 4",
+            ":12:61: coupling.steps_per_exchange: 4 steps are repeated together, but the owner of body[0] is "
+            "answered after each; give 1"},
         Fault{"NoShape", 10, "",
               ":8:1: body[0]: has no shape; give box, ball, polygon, cylinder, mesh or compound"},
         Fault{"Size", 10, "  box { size: [0.1, 0] }",

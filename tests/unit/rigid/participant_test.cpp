@@ -83,12 +83,13 @@ class ParticipantTest : public testing::Test {
     message.header.mutable_welcome()->set_interval_ns(kInterval);
     message.header.mutable_welcome()->set_steps_per_interval(10);
     message.header.mutable_welcome()->set_steps(steps);
+    for (const std::uint32_t body : own_) message.header.mutable_welcome()->add_body(body);
     add_wrenches(message, 1, {});
     reply(std::move(message));
   }
 
   void add_wrenches(Message& message, std::size_t count, const std::vector<double>& force) {
-    const auto bodies = static_cast<std::size_t>(scene_.body_size());
+    const std::size_t bodies = own_.empty() ? static_cast<std::size_t>(scene_.body_size()) : own_.size();
     std::vector<double> rows(count * bodies * 6, 0.0);
     for (std::size_t i = 0; i < force.size(); ++i) rows[i] = force[i];
     message.add_array<double>("wrenches", rows, {count, bodies, 6});
@@ -114,6 +115,7 @@ class ParticipantTest : public testing::Test {
   std::filesystem::path directory_;
   std::string endpoint_, peer_;
   Scene scene_;
+  std::vector<std::uint32_t> own_;  // bodies of the participant; empty: all
   std::atomic<bool> stop_{false};
   std::future<End> participant_;
 };
@@ -168,6 +170,23 @@ TEST_F(ParticipantTest, a_free_body_waits_for_the_wrench_of_every_step) {
   }
   end(End::UNSTABLE);
   EXPECT_EQ(participant_.get().reason(), End::UNSTABLE);
+}
+
+// The first is free and somebody else's: what is left is streamed.
+TEST_F(ParticipantTest, moves_the_bodies_that_it_is_told_to) {
+  add_body().set_mass(2);
+  scene_.mutable_body(0)->set_owner("crane");
+  add_body().mutable_prescribed()->mutable_constant()->add_velocity(2);
+  own_ = {1};
+  start();
+  welcome(64);
+  const Message message = receive();
+  EXPECT_EQ(message.header.kinematics().count(), 64u);
+  EXPECT_EQ(message.shape("kinematics"), (std::vector<std::uint64_t>{64, 1, 19}));
+  EXPECT_NEAR(message.array<double>("kinematics")[7], 2, 1e-9);
+  answer(message.header.kinematics());
+  end(End::FINISHED);
+  EXPECT_EQ(participant_.get().reason(), End::FINISHED);
 }
 
 TEST_F(ParticipantTest, an_end_may_come_at_any_time) {

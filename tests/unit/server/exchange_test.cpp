@@ -39,9 +39,9 @@ TEST(Exchange, AnswersABatchWhenItsLastStepIsDone) {
   EXPECT_FALSE(exchange.has(1));
   exchange.accept(kinematics(1, 1, 3));
   ASSERT_TRUE(exchange.has(1));
-  EXPECT_EQ(exchange.kinematics(1)[0].position.x(), 1);
+  EXPECT_EQ(exchange.rows(1)[0], 1);
   EXPECT_FALSE(answer(exchange, 1));
-  EXPECT_EQ(exchange.kinematics(2)[0].position.x(), 2);
+  EXPECT_EQ(exchange.rows(2)[0], 2);
   EXPECT_FALSE(answer(exchange, 2));
   const auto reply = answer(exchange, 3);
   ASSERT_TRUE(reply);
