@@ -92,7 +92,9 @@ void BoundaryParticles<Dim>::append_surface(const Eigen::Vector3d& to_surface, b
 template <int Dim>
 void BoundaryParticles<Dim>::move(std::span<const Kinematics> bodies) {
   assert(bodies.size() + 1 == body_count());
-  for (std::size_t b = 0; b < bodies.size(); ++b) move_body(b + 1, bodies[b]);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (moved_to_.empty() || !(moved_to_[b] == bodies[b])) move_body(b + 1, bodies[b]);
+  moved_to_.assign(bodies.begin(), bodies.end());
 }
 
 // x = X + R x_local;  v = U + Omega x r;  a = A + dOmega/dt x r + Omega x (Omega x r)

@@ -57,7 +57,8 @@ class BoundaryParticles {
   // With these in the place of the setup's bodies.
   BoundaryParticles(const Setup& setup, std::span<const Boundary> bodies);
 
-  // Moves the particles of the bodies to the end of the step.
+  // Moves the particles of the bodies to the end of the step; those of a body that moves no further stay as
+  // they are.
   void move(std::span<const Kinematics> bodies);
 
   [[nodiscard]] std::size_t size() const { return node_.size(); }
@@ -104,8 +105,8 @@ class BoundaryParticles {
 
   // What moves and what is extrapolated; the rest stays as it was sampled.
   auto state() {
-    return std::tie(node_, velocity_, acceleration_, surface_, plates_, pressure, stress, dilation, one_sided,
-                    sticking);
+    return std::tie(node_, velocity_, acceleration_, surface_, plates_, moved_to_, pressure, stress, dilation,
+                    one_sided, sticking);
   }
 
  private:
@@ -118,6 +119,7 @@ class BoundaryParticles {
   std::vector<Node<Dim>> node_;
   std::vector<Vec<Dim>> local_, local_normal_;
   std::vector<Vec<Dim>> velocity_, acceleration_;
+  std::vector<Kinematics> moved_to_;  // of every body, what its particles were moved by; empty at first
   std::vector<Surface<Dim>> surface_;
   std::vector<bool> no_slip_;  // per body
   std::vector<double> sampled_volume_;

@@ -13,6 +13,13 @@ struct Kinematics {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();       // mean over the step
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();           // end of the step
   Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();   // end of the step
+
+  // To the last bit.
+  bool operator==(const Kinematics& other) const {
+    return position == other.position && orientation.coeffs() == other.orientation.coeffs() &&
+           velocity == other.velocity && angular_velocity == other.angular_velocity &&
+           acceleration == other.acceleration && angular_acceleration == other.angular_acceleration;
+  }
 };
 
 // Force [N] and moment about the centre of mass [N m]; per metre of depth in two dimensions.

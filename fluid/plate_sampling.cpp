@@ -1,5 +1,6 @@
 #include "fluid/plate_sampling.hpp"
 
+#include <array>
 #include <optional>
 
 #include "fluid/layers.hpp"

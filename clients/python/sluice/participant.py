@@ -30,7 +30,8 @@ class Participant:
             self._context.destroy(linger=0)
             raise
         self.scene, self.clock = self._link.welcome.scene, Clock(self._link.welcome)
-        self.bodies = [self.scene.body[b] for b in self._link.welcome.body]
+        bodies = self._link.welcome.body or range(len(self.scene.body))  # a server that knows no owners names none
+        self.bodies = [self.scene.body[b] for b in bodies]
         self.done = self._link.welcome.done
         self.wrenches = self._link.arrays["wrenches"]
         self._probes = self._link.arrays.get("probe")
