@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "clients/recording/reader.hpp"
+#include "clients/sluice/not_computed.hpp"
 #include "protocol/body_kind.hpp"
 #include "protocol/sim_time.hpp"
 
@@ -91,6 +92,7 @@ void Session::start_participants(const Welcome& welcome) {
   summary_.steps = welcome.steps();
   summary_.step = summary_.done_before = welcome.done();
   summary_.duration = protocol::seconds(clock.time(welcome.steps()));
+  summary_.not_computed = not_computed(welcome.scene(), !options_.output.empty());
 
   if (!options_.output.empty()) {
     auto arguments = connection();

@@ -1,6 +1,6 @@
 #include "clients/sluice/summary.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
@@ -59,6 +59,8 @@ std::string to_table(const Summary& summary) {
     table += row("energy at end", energy_text(*summary.end, unit));
     table += row("work of boundaries", fmt::format("{:.4g} {}", summary.end->boundary_work(), unit));
   }
+  if (!summary.not_computed.empty())
+    table += row("not computed", fmt::format("{}", fmt::join(summary.not_computed, ", ")));
   table += row("status", summary.detail.empty() ? summary.status : summary.status + " - " + summary.detail);
   if (!summary.recording.empty())
     table += row("recording", fmt::format("{} ({})", summary.recording, size_text(summary.recording_bytes)));
@@ -79,6 +81,7 @@ std::string to_json(const Summary& summary) {
             {"wall_seconds", summary.wall_seconds},
             {"particle_steps_per_second", summary.particle_steps_per_second()},
             {"energy", {{"start", energy_json(summary.start)}, {"end", energy_json(summary.end)}}},
+            {"not_computed", summary.not_computed},
             {"status", summary.status},
             {"detail", summary.detail},
             {"exit_code", summary.exit_code},

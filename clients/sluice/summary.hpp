@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "messages.pb.h"
 
@@ -22,7 +23,8 @@ struct Summary {
   double duration = 0;            // planned [s]
   double wall_seconds = 0;
   std::optional<Energy> start, end;
-  std::string status;  // name of End.Reason; BAD_INPUT when nothing was started
+  std::vector<std::string> not_computed;  // not_computed.hpp
+  std::string status;                     // name of End.Reason; BAD_INPUT when nothing was started
   std::string detail;
   int exit_code = 0;
   std::string recording;  // path; empty when there is none

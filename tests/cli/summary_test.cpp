@@ -5,6 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "clients/sluice/not_computed.hpp"
+
 namespace sluice::clients {
 namespace {
 
@@ -43,6 +45,23 @@ TEST(Summary, WhatIsNotKnownIsLeftOut) {
   const json object = json::parse(to_json(finished()));
   EXPECT_TRUE(object.at("energy").at("start").is_null());
   EXPECT_TRUE(object.at("recording").is_null());
+}
+
+TEST(Summary, SaysWhatTheSceneDidWithout) {
+  Scene scene;
+  scene.set_dimension(2);
+  scene.mutable_liquid()->set_viscosity(1e-3);
+  scene.add_body();
+  Summary summary = finished();
+  summary.not_computed = not_computed(scene, true);
+  EXPECT_THAT(to_table(summary),
+              HasSubstr("not computed        third dimension, surface tension, second liquid"));
+  EXPECT_THAT(summary.not_computed, Not(testing::Contains(testing::AnyOf("viscosity", "bodies", "frames"))));
+  EXPECT_EQ(json::parse(to_json(summary)).at("not_computed").size(), summary.not_computed.size());
+  scene.add_other_liquid()->set_viscosity(1e-3);
+  scene.mutable_liquid()->clear_viscosity();
+  EXPECT_THAT(not_computed(scene, false), testing::Not(testing::Contains("viscosity")));
+  EXPECT_THAT(not_computed(scene, false), testing::Contains("frames"));
 }
 
 TEST(Summary, JsonStaysJsonWhateverTheNamesAndNumbers) {
