@@ -5,6 +5,7 @@
 
 #include "benchmark/accuracy.hpp"
 #include "benchmark/formulations.hpp"
+#include "benchmark/instructions.hpp"
 #include "benchmark/recording.hpp"
 #include "benchmark/speed.hpp"
 #include "benchmark/speed_scenes.hpp"
@@ -108,6 +109,25 @@ CLI::App* add_recording(CLI::App& app, RecordingOptions& options) {
   return command;
 }
 
+CLI::App* add_instructions(CLI::App& app, InstructionOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "instructions", "What a feature of a scene costs, in instructions a particle and step");
+  command->add_option("--feature", options.features, "Of: " + names(all_features()))->type_name("NAME ...");
+  command->add_flag("--quick", options.quick, "Few particles; nothing is to be concluded from those");
+  command->add_option("--csv", options.csv, "Write the table to this file")->type_name("FILE");
+  return command;
+}
+
+// What `instructions` has counted.
+CLI::App* add_steps(CLI::App& app, CountedRun& run) {
+  CLI::App* command = app.add_subcommand("steps", "")->group("");
+  command->add_option("--feature", run.feature)->required();
+  command->add_flag("--with", run.with);
+  command->add_option("--particles", run.particles)->required();
+  command->add_option("--steps", run.steps)->required();
+  return command;
+}
+
 int bench(int argc, char** argv) {
   CLI::App app{"What the solver's results are worth and what they cost."};
   app.name("sluice bench");
@@ -122,6 +142,10 @@ int bench(int argc, char** argv) {
   add_speed(app, of_speed);
   RecordingOptions of_recording;
   const CLI::App* measures_recording = add_recording(app, of_recording);
+  InstructionOptions of_instructions;
+  const CLI::App* counts_instructions = add_instructions(app, of_instructions);
+  CountedRun counted;
+  const CLI::App* is_counted = add_steps(app, counted);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -129,6 +153,11 @@ int bench(int argc, char** argv) {
   }
   if (measures_accuracy->parsed()) return accuracy(of_accuracy);
   if (measures_recording->parsed()) return recording(of_recording);
+  if (counts_instructions->parsed()) return instructions(of_instructions);
+  if (is_counted->parsed()) {
+    run_steps(counted);
+    return protocol::kDone;
+  }
   return checks_stability->parsed() ? stability(of_stability) : speed(of_speed);
 }
 

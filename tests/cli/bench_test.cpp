@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "tests/cli/command.hpp"
@@ -73,6 +74,24 @@ TEST(Bench, MeasuresWhatFramesCost) {
   const std::string csv = read_text(directory.path() / "r.csv");
   EXPECT_THAT(csv, HasSubstr("rate,frames,steps,without_s,with_s\n100,3,"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
+}
+
+// What counts is valgrind. Without, or where it cannot run the programs, the command says so.
+TEST(Bench, CountsInstructions) {
+  const TemporaryDirectory directory;
+  const Outcome outcome =
+      run_program("sluice", {"bench", "instructions", "--quick", "--feature", "viscosity", "--csv", "i.csv"},
+                  directory.path());
+  if (outcome.code == 0) {
+    EXPECT_THAT(outcome.out, HasSubstr("viscosity"));
+    EXPECT_THAT(read_text(directory.path() / "i.csv"), HasSubstr("feature,without,with,ratio\nviscosity,"));
+  } else if (!std::filesystem::exists("/usr/bin/valgrind")) {
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("install the package valgrind"));
+  } else {
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("valgrind cannot run viscosity's scene"));
+  }
 }
 
 TEST(Bench, RefusesChecksThatDoNotExist) {
