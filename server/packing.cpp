@@ -1,6 +1,5 @@
 #include "server/packing.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -155,23 +154,14 @@ class Packing {
     }
   }
 
-  [[nodiscard]] Eigen::AlignedBox3d box_around(const Placed& body) const {
-    const fluid::Bounds own = fluid::bounds(body.shape, dimension_);
-    const Eigen::AlignedBox3d box(own.min, own.max);
-    Eigen::AlignedBox3d turned;
-    for (int corner = 0; corner < 8; ++corner)
-      turned.extend(body.pose.position +
-                    body.pose.orientation * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
-    return turned;
-  }
-
   // Points of the liquid's lattice that are neither liquid nor in a body.
   [[nodiscard]] Points lattice_around(const Placed& body) const {
     const double reach = kBand * dx_ + 2 * h_;
     const Eigen::Vector3d anchor = particles_.front();
-    const Eigen::AlignedBox3d box = box_around(body);
-    Eigen::Vector3d low = box.min().array() - reach;
-    const Eigen::Vector3d high = box.max().array() + reach;
+    const fluid::CompoundShape in_its_pose{{{body.shape, body.pose.position, body.pose.orientation}}};
+    const fluid::Bounds box = fluid::bounds(in_its_pose, dimension_);
+    Eigen::Vector3d low = box.min.array() - reach;
+    const Eigen::Vector3d high = box.max.array() + reach;
     Eigen::Vector3i count = ((high - low) / dx_).array().ceil().cast<int>();
     low = anchor + dx_ * ((low - anchor) / dx_).array().ceil().matrix();
     if (dimension_ == 2) {

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "protocol/liquids.hpp"
+
 namespace sluice::clients {
 namespace {
 
 bool is_viscous(const Scene& scene) {
-  return scene.liquid().viscosity() > 0 ||
-         std::any_of(scene.other_liquid().begin(), scene.other_liquid().end(),
-                     [](const auto& liquid) { return liquid.viscosity() > 0; });
+  return std::ranges::any_of(protocol::liquids(scene),
+                             [](const auto& liquid) { return liquid.viscosity > 0; });
 }
 
 }  // namespace

@@ -276,13 +276,11 @@ TEST_F(ExchangeTest, RepeatsAnExchangeFromTheStateBeforeIt) {
     first += count;
   }
   std::uint64_t logged = 0;
-  while (const auto message = recorder.pull()) {
-    recorder.acknowledge(message->header.sequence());
-    if (message->header.has_end()) break;
-    if (!message->header.has_exchange_log()) continue;
-    const auto wrenches = message->array<double>("wrenches");
-    const auto coupling = message->array<double>("coupling");
-    for (std::uint64_t k = 0; k < message->header.exchange_log().count(); ++k) {
+  for (const Message& message : recorder.record()) {
+    if (!message.header.has_exchange_log()) continue;
+    const auto wrenches = message.array<double>("wrenches");
+    const auto coupling = message.array<double>("coupling");
+    for (std::uint64_t k = 0; k < message.header.exchange_log().count(); ++k) {
       EXPECT_EQ(wrenches[6 * k], static_cast<double>(++logged));
       EXPECT_EQ(coupling[2 * k], 3);
       EXPECT_EQ(coupling[2 * k + 1], 0.5);

@@ -63,12 +63,10 @@ TEST(Owners, MoveTheirBodiesTogether) {
     EXPECT_THAT(to_rigid.array<double>("wrenches").subspan(0, 2), ElementsAre(step, 1));
   }
   std::uint64_t logged = 0;
-  while (const auto message = recorder.pull()) {
-    recorder.acknowledge(message->header.sequence());
-    if (message->header.has_end()) break;
-    if (!message->header.has_exchange_log()) continue;
-    const auto rows = message->array<double>("kinematics");
-    for (std::uint64_t k = 0; k < message->header.exchange_log().count(); ++k) {
+  for (const Message& message : recorder.record()) {
+    if (!message.header.has_exchange_log()) continue;
+    const auto rows = message.array<double>("kinematics");
+    for (std::uint64_t k = 0; k < message.header.exchange_log().count(); ++k) {
       ++logged;
       for (std::uint64_t body = 0; body < 3; ++body) {
         const auto row = rows.subspan((3 * k + body) * server::kKinematicsRow, 2);
