@@ -38,9 +38,9 @@ const SpeedRow* find_like(const std::vector<SpeedRow>& rows, const SpeedRow& row
 }
 
 void print(const SpeedRow& row, const std::vector<SpeedRow>& baseline) {
-  fmt::print("  {:>10}{:>9}{:>22.3f}{:>12.1f}{:>15.1f}{:>9.1f}{:>16.0f}{:>9.2f}", row.particles, row.threads,
-             1e-6 * row.rate, row.neighbors, 1e-6 * row.rate * row.neighbors, 100 * row.share, row.bytes,
-             row.growth);
+  fmt::print("  {:>10}{:>9}{:>22.3f}{:>12.1f}{:>15.1f}{:>9.1f}{:>16.0f}{:>9.0f}{:>9.1f}{:>9.2f}",
+             row.particles, row.threads, 1e-6 * row.rate, row.neighbors, 1e-6 * row.rate * row.neighbors,
+             100 * row.share, row.bytes, row.most_bytes, row.start, row.growth);
   if (const SpeedRow* before = find_like(baseline, row)) fmt::print("{:>9.2f}", row.rate / before->rate);
   fmt::print("\n{:>19}", "");
   for (const auto& [stage, share] : stage_shares(row.stages)) fmt::print(" {} {:.0f} %", stage, 100 * share);
@@ -50,9 +50,9 @@ void print(const SpeedRow& row, const std::vector<SpeedRow>& baseline) {
 
 void run_case(const SpeedScene& scene, const SpeedOptions& options, double peak,
               const std::vector<SpeedRow>& baseline, std::vector<SpeedRow>& rows) {
-  fmt::print("{}: {}\n  {:>10}{:>9}{:>22}{:>12}{:>15}{:>9}{:>16}{:>9}{}\n", scene.name, scene.title,
+  fmt::print("{}: {}\n  {:>10}{:>9}{:>22}{:>12}{:>15}{:>9}{:>16}{:>9}{:>9}{:>9}{}\n", scene.name, scene.title,
              "particles", "threads", "10^6 particle steps/s", "neighbours", "10^6 pairs/s", "% peak",
-             "bytes/particle", "growth", baseline.empty() ? "" : "  times baseline");
+             "bytes/particle", "at most", "start", "growth", baseline.empty() ? "" : "  times baseline");
   std::vector<double> sizes = options.particles.empty() ? scene.particles : options.particles;
   if (options.quick) sizes.resize(1);
   const SpeedEffort effort = options.quick ? SpeedEffort{1e6, 1e6} : SpeedEffort{2e7, 2e7};
@@ -72,10 +72,12 @@ void run_case(const SpeedScene& scene, const SpeedOptions& options, double peak,
 
 std::string to_csv(const std::vector<SpeedRow>& rows) {
   std::string text = kColumns;
+  text += ",start,most_bytes";
   for (const auto& [stage, share] : stage_shares({})) text += "," + stage;
   for (const SpeedRow& r : rows) {
     text += fmt::format("\n{},{},{},{:.6g},{:.4g},{:.4g},{:.4g},{:.4g}", r.scene, r.particles, r.threads,
                         r.rate, r.neighbors, r.share, r.bytes, r.growth);
+    text += fmt::format(",{:.4g},{:.4g}", r.start, r.most_bytes);
     for (const auto& [stage, share] : stage_shares(r.stages)) text += fmt::format(",{:.4g}", share);
   }
   return text + "\n";

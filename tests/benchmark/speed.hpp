@@ -27,8 +27,10 @@ struct SpeedRow {
   double share = 0;      // floating-point operations on those pairs, of the peak of the threads' cores
   double bytes = 0;      // that the process grew by, a fluid particle
   double growth = 1;     // time a particle step over that of the case's smallest
-  // Of the timed steps, wall clock [s]. Not read back.
-  fluid::StageTimes stages{};
+  // Not read back:
+  double start = 0;            // wall clock of the start-up over that of a step
+  double most_bytes = 0;       // as bytes, the most that there was, start-up included
+  fluid::StageTimes stages{};  // of the timed steps, wall clock [s]
 };
 
 // Prints the table, writes the files. Returns the exit code. Throws InputError for a case that does not exist

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <string>
 
 #include "fluid/cell_grid.hpp"
 #include "validation/support/scene_run.hpp"
@@ -21,6 +22,17 @@ double resident() {
   double pages = 0, resident_pages = 0;
   statm >> pages >> resident_pages;
   return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+// The most memory since forget_most() [bytes], and that from now on; where the kernel keeps no account, 0.
+void forget_most() {
+  std::ofstream("/proc/self/clear_refs") << 5;
+}
+double most_resident() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return 1024.0 * std::stod(line.substr(6));
+  return 0;
 }
 
 // Floating-point operations a pair in both sweeps, a multiply-add counting as two, roots and divisions as
@@ -48,13 +60,16 @@ double mean_neighbors(const fluid::Snapshot& state, double support) {
   return pairs / static_cast<double>(count) - 1.0;
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 // Steps until that many particle steps are done; the seconds that took.
 double advance(validation::SceneRun& run, double particle_steps, double particles) {
   const auto steps = static_cast<std::uint64_t>(std::ceil(particle_steps / particles));
   const auto start = std::chrono::steady_clock::now();
   for (std::uint64_t k = 0; k < steps; ++k) run.next_step();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
-         static_cast<double>(steps);
+  return seconds_since(start) / static_cast<double>(steps);
 }
 
 fluid::StageTimes difference(const fluid::StageTimes& a, const fluid::StageTimes& b) {
@@ -67,7 +82,10 @@ fluid::StageTimes difference(const fluid::StageTimes& a, const fluid::StageTimes
 SpeedRow run_for_speed(const SpeedScene& scene, double particles, int threads, const SpeedEffort& effort,
                        double peak) {
   const double before = resident();
+  forget_most();
+  const auto start = std::chrono::steady_clock::now();
   validation::SceneRun run(scene.make(particles), threads);
+  const double start_up = seconds_since(start);
   const auto count = static_cast<double>(run.masses().size());
   advance(run, effort.warm_up, count);
   const fluid::StageTimes until_then = run.solver().stage_times();
@@ -75,6 +93,8 @@ SpeedRow run_for_speed(const SpeedScene& scene, double particles, int threads, c
   SpeedRow row{.scene = scene.name, .particles = run.masses().size(), .threads = threads};
   row.stages = difference(run.solver().stage_times(), until_then);
   row.bytes = (resident() - before) / count;
+  row.most_bytes = (most_resident() - before) / count;
+  row.start = start_up / seconds;
   row.rate = count / seconds;
   const double h = run.scene().formulation().smoothing() * run.scene().spacing();
   const fluid::Snapshot state = run.solver().snapshot();
