@@ -1,32 +1,26 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "fluid/group_list.hpp"
 
 namespace sluice::fluid {
 
-// Of one group: what is within the support of each of the vectors that it is done in.
+// Of one group: which items of its list are within the support of each of the vectors that it is done in.
 class CloseGroup {
  public:
-  CloseGroup(std::uint32_t* index, std::size_t room, std::uint32_t* count)
-      : index_(index), room_(room), count_(count) {}
+  // Items to a word, a bit each.
+  static constexpr std::size_t kWord = 64;
 
-  // Where those of a vector are written.
-  [[nodiscard]] std::uint32_t* begin(std::size_t vector) const { return index_ + vector * room_; }
-  void end_at(const std::uint32_t* end, std::size_t vector) const {
-    count_[vector] = static_cast<std::uint32_t>(end - begin(vector));
-  }
-  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t vector) const {
-    return {begin(vector), count_[vector]};
-  }
+  CloseGroup(std::uint64_t* bits, std::size_t words) : bits_(bits), words_(words) {}
+
+  // Word k has items kWord k and on; there is a word more behind the last.
+  [[nodiscard]] std::uint64_t* of(std::size_t vector) const { return bits_ + vector * words_; }
 
  private:
-  std::uint32_t* index_;
-  std::size_t room_;
-  std::uint32_t* count_;
+  std::uint64_t* bits_;
+  std::size_t words_;
 };
 
 // The fluid that sweep 1 finds within the support, for sweep 2 at the same positions: the lists of the search
@@ -39,20 +33,18 @@ class CloseList {
     begin_.resize(list.size() + 1);
     begin_[0] = 0;
     for (std::size_t group = 0; group < list.size(); ++group)
-      begin_[group + 1] = begin_[group] + list.of(group).index.size();
-    index_.resize(begin_.back() * vectors);
-    count_.resize(list.size() * vectors);
+      begin_[group + 1] = begin_[group] + (list.of(group).count + CloseGroup::kWord - 1) / CloseGroup::kWord;
+    bits_.resize(begin_.back() * vectors + 1);
   }
 
   [[nodiscard]] CloseGroup of(std::size_t group) {
-    return {index_.data() + begin_[group] * vectors_, begin_[group + 1] - begin_[group],
-            count_.data() + group * vectors_};
+    return {bits_.data() + begin_[group] * vectors_, begin_[group + 1] - begin_[group]};
   }
 
  private:
   std::size_t vectors_ = 1;
-  std::vector<std::size_t> begin_;  // of groups in the lists
-  std::vector<std::uint32_t> index_, count_;
+  std::vector<std::size_t> begin_;  // words of groups before, for one vector
+  std::vector<std::uint64_t> bits_;
 };
 
 }  // namespace sluice::fluid

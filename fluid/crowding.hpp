@@ -67,13 +67,20 @@ class Crowding {
   // Of the drift of liquid at rest, what is not worth computing: it moves so little from 0.3 g on.
   static constexpr double kLeastDrift = 0.01;
 
-  struct Crowd {
-    double c = 1;
-    bool is_spray = false;
-    bool is_at_surface = false;
-    bool is_thin = false;
-    Vec<Dim> normal = Vec<Dim>::Zero();  // of the surface
+  // In the place of c, which is above 0.
+  static constexpr double kSpray = -1.0;
+
+  // What a fit that is not spray tells of where its particle is.
+  struct Place {
+    Vec<Dim> centre;  // of the weights from the particle, m1/m0 [m]
+    double offset;    // its distance over h
+    double share;     // of the support that liquid fills
   };
+  [[nodiscard]] Place place(const Fit<Dim>& fit, double h) const {
+    const Vec<Dim> centre = -symmetric_inverse<Dim>(fit.G) * fit.g;
+    const double offset = centre.norm() / h;
+    return {centre, offset, half_space_.share(offset)};
+  }
 
   // Images have fits too, and are measured with the rest.
   template <typename Kernel>
@@ -81,14 +88,7 @@ class Crowding {
     crowd_.resize(fluid.node.size());
     parallel.for_each(crowd_.size(), [&](std::size_t i) {
       const Fit<Dim>& fit = fluid.fit[i];
-      crowd_[i] = {.is_spray = fit.floored};
-      if (fit.floored) return;
-      const Vec<Dim> centre = -symmetric_inverse<Dim>(fit.G) * fit.g;  // m1/m0
-      const double offset = centre.norm() / model.h, share = half_space_.share(offset);
-      crowd_[i].c = fit.m0 / share;
-      crowd_[i].is_thin = share < kLeastShare;
-      crowd_[i].is_at_surface = offset > kSurfaceOffset;
-      if (crowd_[i].is_at_surface) crowd_[i].normal = centre.normalized();
+      crowd_[i] = fit.floored ? kSpray : fit.m0 / place(fit, model.h).share;
     });
   }
 
@@ -96,12 +96,14 @@ class Crowding {
   template <typename Kernel, typename ForFluidNear>
   Vec<Dim> drift(const Model<Dim, Kernel>& model, const ForFluidNear& for_fluid_near,
                  const Particles<Dim>& fluid, std::size_t i, double diffusion) const {
-    const Crowd& crowd = crowd_[i];
+    const double crowd = crowd_[i];
     const Vec<Dim> none = Vec<Dim>::Zero();
-    if (crowd.is_spray || crowd.is_thin || fluid.is_buffer(i)) return none;
+    if (crowd == kSpray || fluid.is_buffer(i)) return none;
     const double share = rest(fluid.acceleration[i]);
     if (share < kLeastDrift) return none;
     const Fit<Dim>& fit = fluid.fit[i];
+    const Place at = place(fit, model.h);
+    if (at.share < kLeastShare) return none;
     const double reach2 = model.kernel.support() * model.kernel.support();
     Vec<Dim> grad_c = none;
     bool sees_spray = false;
@@ -109,12 +111,15 @@ class Crowding {
       const Vec<Dim> x_ki = fluid.node[k].x - fluid.node[i].x;
       if (x_ki.squaredNorm() >= reach2) return;
       const double VW = fluid.node[k].volume * model.kernel.value(x_ki);
-      sees_spray = sees_spray || crowd_[k].is_spray;
-      grad_c += (crowd_[k].c - crowd.c) * VW * (fit.g + fit.G * x_ki);
+      sees_spray = sees_spray || crowd_[k] == kSpray;
+      grad_c += (crowd_[k] - crowd) * VW * (fit.g + fit.G * x_ki);
     });
     if (sees_spray) return none;
     Vec<Dim> way = -diffusion * share * grad_c;
-    if (crowd.is_at_surface) way -= way.dot(crowd.normal) * crowd.normal;
+    if (at.offset > kSurfaceOffset) {
+      const Vec<Dim> normal = at.centre.normalized();
+      way -= way.dot(normal) * normal;
+    }
     return way;
   }
 
@@ -129,7 +134,7 @@ class Crowding {
   int steps_ = 0;
   double elapsed_ = 0;  // since the last drift [s]
   // Of the drift in hand:
-  std::vector<Crowd> crowd_;
+  std::vector<double> crowd_;  // c, or kSpray
   std::vector<Vec<Dim>> drift_;
 };
 

@@ -1,3 +1,6 @@
+#include <bit>
+#include <cstring>
+
 #include "fluid/lanes.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -41,15 +44,43 @@ struct Ahead {
   V d, per_r2;  // from the edge of the support; 1/r^2
 };
 
-template <int Dim, bool kMasked>
+// What a fluid particle distributes of its stress, without W: V sigma (g + G x), Source of particles.hpp.
+template <int Dim>
+HWY_INLINE Vecs<Dim> flux_of(const Source<Dim>& from, const Vecs<Dim>& x) {
+  Vecs<Dim> flux;
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a) flux[a] = set(from.s[a]);
+  SLUICE_UNROLL
+  for (int ab = 0; ab < Dim * Dim; ++ab) {
+    const int a = ab / Dim, b = ab % Dim;
+    flux[a] = hn::MulAdd(set(from.S(a, b)), x[b], flux[a]);
+  }
+  return flux;
+}
+// The same over V sigma, where that is a number.
+template <int Dim>
+HWY_INLINE Vecs<Dim> flux_of(const Fit<Dim>& from, const Vecs<Dim>& x) {
+  Vecs<Dim> flux;
+  SLUICE_UNROLL
+  for (int a = 0; a < Dim; ++a) flux[a] = set(from.g[a]);
+  SLUICE_UNROLL
+  for (int ab = 0; ab < Dim * Dim; ++ab) {
+    const int a = ab / Dim, b = ab % Dim;
+    flux[a] = hn::MulAdd(set(from.G(a, b)), x[b], flux[a]);
+  }
+  return flux;
+}
+
+template <int Dim, bool kMasked, bool kIsotropic>
 HWY_INLINE void gather_fluid(const LaneModel<Dim>& model, const NodeLanes<Dim>& group,
                              const ForceLanes<Dim>& lanes, std::size_t turn,
                              std::span<const std::uint32_t> near, const std::uint8_t* mask,
                              const Particles<Dim>& particles, ForceSums<Dim>& sums) {
   const Node<Dim>* node = particles.node.data();
   const Wendland kernel(model.kernel);
-  const Vecs<Dim> x = load(group.x, turn), v = load(group.v, turn), grad_rho = load(lanes.grad_rho, turn);
-  const Vecs<Dim*(Dim + 1) / 2> strain = load(lanes.strain, turn);
+  const Vecs<Dim> x = load(group.x, turn), v = load(group.v, turn),
+                  grad_rho = load(lanes.half_grad_rho, turn);
+  const Vecs<Dim*(Dim + 1) / 2> strain = load(lanes.half_strain, turn);
   const V rho = load(group.rho, turn), tiny_r2 = set(model.tiny_r2);
   ForceSums<Dim> s = sums;
   if (near.empty()) return;
@@ -66,7 +97,6 @@ HWY_INLINE void gather_fluid(const LaneModel<Dim>& model, const NodeLanes<Dim>& 
   Ahead<Dim> next = look(0);
   for (std::size_t n = 0; n < near.size(); ++n) {
     const Node<Dim>& k = node[near[n]];
-    const Source<Dim>& from = particles.source[near[n]];
     const FlowGradients<Dim>& flow = particles.gradients[near[n]];
     const Vecs<Dim> x_ik = next.x_ik;
     const V per_r2 = next.per_r2;
@@ -78,25 +108,28 @@ HWY_INLINE void gather_fluid(const LaneModel<Dim>& model, const NodeLanes<Dim>& 
       W = hn::IfThenElseZero(on, W);
       F = hn::IfThenElseZero(on, F);
     }
-    // Twice the differences of velocity and density that the gradients leave unexplained.
-    const V rho_ki = set(k.rho) - rho;
-    Vecs<Dim> flux, v_left;
-    V rho_left = rho_ki + rho_ki;
+    // The differences of velocity and density that the gradients leave unexplained.
+    Vecs<Dim> v_left;
+    V rho_left = set(k.rho) - rho;
     SLUICE_UNROLL
     for (int a = 0; a < Dim; ++a) {
-      flux[a] = set(from.s[a]);
-      const V v_ik = v[a] - set(k.v[a]);
-      v_left[a] = v_ik + v_ik;
-      rho_left = hn::MulAdd(grad_rho[a] + set(flow.grad_rho[a]), x_ik[a], rho_left);
+      v_left[a] = v[a] - set(k.v[a]);
+      rho_left = hn::MulAdd(grad_rho[a] + set(flow.half_grad_rho[a]), x_ik[a], rho_left);
     }
     SLUICE_UNROLL
     for (int ab = 0; ab < Dim * Dim; ++ab) {
       const int a = ab / Dim, b = ab % Dim;
-      flux[a] = hn::MulAdd(set(from.S(a, b)), x_ik[b], flux[a]);
-      v_left[a] = hn::NegMulAdd(strain[sym<Dim>(a, b)] + set(flow.strain(a, b)), x_ik[b], v_left[a]);
+      v_left[a] = hn::NegMulAdd(strain[sym<Dim>(a, b)] + set(flow.half_strain(a, b)), x_ik[b], v_left[a]);
     }
     const V VF = set(k.volume) * F;
     const V viscous = VF * dot(v_left, x_ik) * per_r2;
+    Vecs<Dim> flux;
+    if constexpr (kIsotropic) {
+      flux = flux_of<Dim>(particles.fit[near[n]], x_ik);
+      W = W * set(flow.V_sigma);
+    } else {
+      flux = flux_of<Dim>(particles.source[near[n]], x_ik);
+    }
     SLUICE_UNROLL
     for (int a = 0; a < Dim; ++a) {
       s.internal[a] = hn::MulAdd(W, flux[a], s.internal[a]);
@@ -143,35 +176,81 @@ HWY_INLINE void gather_boundary(const LaneModel<Dim>& model, const NodeLanes<Dim
   }
 }
 
+// `bits` at the places where `mask` has ones, from the lowest on.
+HWY_INLINE unsigned deposit(std::uint64_t bits, unsigned mask) {
+#if HWY_TARGET <= HWY_AVX2 && HWY_ARCH_X86_64
+  return static_cast<unsigned>(_pdep_u64(bits, mask));
+#else
+  unsigned placed = 0;
+  for (; mask != 0; mask &= mask - 1, bits >>= 1)
+    if (bits & 1) placed |= mask & (0u - mask);
+  return placed;
+#endif
+}
+
+// The items that have a bit in `which`, their numbers in `buffer`.
+HWY_INLINE std::span<const std::uint32_t> close_ones(const NearItems& near, const std::uint64_t* which,
+                                                     std::vector<std::uint32_t>& buffer) {
+  if (buffer.size() < near.count + kRoomBeyond) buffer.resize(near.count + kRoomBeyond);
+  std::uint32_t* to = buffer.data();
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(which);
+  static_assert(std::endian::native == std::endian::little);
+  std::size_t n = 0;
+  for (const Members& some : near.members) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, bytes + n / 8, sizeof bits);
+    to = write_members(some.first(), deposit(bits >> n % 8, some.bits()), to);
+    n += some.count();
+  }
+  return {buffer.data(), to};
+}
+
+template <int Dim, bool kIsotropic>
+HWY_INLINE void gather_near(const LaneModel<Dim>& model, const NodeLanes<Dim>& group,
+                            const ForceLanes<Dim>& lanes, std::size_t turn, const NearItems& fluid,
+                            const CloseGroup& close, std::vector<std::uint32_t>& buffer,
+                            const Particles<Dim>& particles, ForceSums<Dim>& sums) {
+  if (fluid.lanes == nullptr)
+    gather_fluid<Dim, false, kIsotropic>(model, group, lanes, turn,
+                                         close_ones(fluid, close.of(turn / kLanes), buffer), nullptr,
+                                         particles, sums);
+  else
+    gather_fluid<Dim, true, kIsotropic>(model, group, lanes, turn, write_all(fluid, buffer), fluid.lanes,
+                                        particles, sums);
+}
+
 template <int Dim>
-HWY_INLINE void forces(const LaneModel<Dim>& model, const NodeLanes<Dim>& group, const NearGroup& fluid,
-                       const CloseGroup& close, const Particles<Dim>& particles, const NearGroup& boundary,
+HWY_INLINE void forces(const LaneModel<Dim>& model, const NodeLanes<Dim>& group, const NearItems& fluid,
+                       const CloseGroup& close, std::vector<std::uint32_t>& buffer,
+                       const Particles<Dim>& particles, const NearGroup& boundary,
                        const BoundaryParticles<Dim>& walls, ForceLanes<Dim>& lanes) {
   for (std::size_t turn = 0; turn < kGroup; turn += kLanes) {
     ForceSums<Dim> sums;
     sums.clear();
-    if (fluid.lanes == nullptr)
-      gather_fluid<Dim, false>(model, group, lanes, turn, close.of(turn / kLanes), nullptr, particles, sums);
+    if (particles.source.empty())
+      gather_near<Dim, true>(model, group, lanes, turn, fluid, close, buffer, particles, sums);
     else
-      gather_fluid<Dim, true>(model, group, lanes, turn, fluid.index, fluid.lanes, particles, sums);
+      gather_near<Dim, false>(model, group, lanes, turn, fluid, close, buffer, particles, sums);
     gather_boundary<Dim>(model, group, turn, boundary, walls, sums);
     const V volume = load(group.volume, turn), W0 = set(Wendland::value_factor(model.kernel));
     const double slope = Wendland::slope_factor(model.kernel);
-    const V alpha = set(0.5 * model.artificial_viscosity * slope);
-    Vecs<Dim> force;
+    const V alpha = set(model.artificial_viscosity * slope);
+    const V mass = load(lanes.mass, turn);
+    Vecs<Dim> acceleration;
     SLUICE_UNROLL
     for (int a = 0; a < Dim; ++a) {
       const V stress = hn::MulSub(set(model.boundary_G), sums.traction[a], sums.internal[a]);
-      force[a] = hn::MulAdd(volume, hn::MulAdd(W0, stress, alpha * sums.viscous[a]), sums.pairwise[a]);
+      acceleration[a] =
+          hn::MulAdd(volume, hn::MulAdd(W0, stress, alpha * sums.viscous[a]), sums.pairwise[a]) / mass;
     }
-    store(force, lanes.force, turn);
-    store(set(0.5 * model.density_diffusion * slope) * sums.diffusion, lanes.density_rate, turn);
+    store(acceleration, lanes.acceleration, turn);
+    store(set(model.density_diffusion * slope) * sums.diffusion, lanes.density_rate, turn);
   }
 }
 
 // Fluid particle i distributes its stress to w like to any neighbour, and takes w's traction with the
 // opposite sign.
-template <int Dim>
+template <int Dim, bool kIsotropic>
 HWY_INLINE void reactions(const LaneModel<Dim>& model, const NodeLanes<Dim>& group, const NearGroup& near,
                           const Particles<Dim>& particles, ReactionLanes<Dim>& lanes) {
   const Wendland kernel(model.kernel);
@@ -182,20 +261,20 @@ HWY_INLINE void reactions(const LaneModel<Dim>& model, const NodeLanes<Dim>& gro
     Vecs<Dim> internal = zeros<Dim>(), back = zeros<Dim>(), guard = zeros<Dim>();
     for (std::size_t n = 0; n < near.index.size(); ++n) {
       const Node<Dim>& i = particles.node[near.index[n]];
-      const Source<Dim>& from = particles.source[near.index[n]];
       if (near.lanes != nullptr) on = lanes_of(near.lanes, n, turn);
       Vecs<Dim> x_wi;
       SLUICE_UNROLL
       for (int a = 0; a < Dim; ++a) x_wi[a] = x[a] - set(i.x[a]);
       const V r2 = dot(x_wi, x_wi);
-      const V W = hn::IfThenElseZero(on, kernel.value(r2));
+      V W = hn::IfThenElseZero(on, kernel.value(r2));
       const V WV = W * set(i.volume);
       Vecs<Dim> flux;
-      SLUICE_UNROLL
-      for (int a = 0; a < Dim; ++a) flux[a] = set(from.s[a]);
-      SLUICE_UNROLL
-      for (int ab = 0; ab < Dim * Dim; ++ab)
-        flux[ab / Dim] = hn::MulAdd(set(from.S(ab / Dim, ab % Dim)), x_wi[ab % Dim], flux[ab / Dim]);
+      if constexpr (kIsotropic) {
+        flux = flux_of<Dim>(particles.fit[near.index[n]], x_wi);
+        W = W * set(particles.gradients[near.index[n]].V_sigma);
+      } else {
+        flux = flux_of<Dim>(particles.source[near.index[n]], x_wi);
+      }
       SLUICE_UNROLL
       for (int a = 0; a < Dim; ++a) {
         internal[a] = hn::MulAdd(W, flux[a], internal[a]);
@@ -212,23 +291,29 @@ HWY_INLINE void reactions(const LaneModel<Dim>& model, const NodeLanes<Dim>& gro
   }
 }
 
-void forces_2d(const LaneModel<2>& model, const NodeLanes<2>& group, const NearGroup& fluid,
-               const CloseGroup& close, const Particles<2>& particles, const NearGroup& boundary,
-               const BoundaryParticles<2>& walls, ForceLanes<2>& lanes) {
-  forces<2>(model, group, fluid, close, particles, boundary, walls, lanes);
+void forces_2d(const LaneModel<2>& model, const NodeLanes<2>& group, const NearItems& fluid,
+               const CloseGroup& close, std::vector<std::uint32_t>& buffer, const Particles<2>& particles,
+               const NearGroup& boundary, const BoundaryParticles<2>& walls, ForceLanes<2>& lanes) {
+  forces<2>(model, group, fluid, close, buffer, particles, boundary, walls, lanes);
 }
-void forces_3d(const LaneModel<3>& model, const NodeLanes<3>& group, const NearGroup& fluid,
-               const CloseGroup& close, const Particles<3>& particles, const NearGroup& boundary,
-               const BoundaryParticles<3>& walls, ForceLanes<3>& lanes) {
-  forces<3>(model, group, fluid, close, particles, boundary, walls, lanes);
+void forces_3d(const LaneModel<3>& model, const NodeLanes<3>& group, const NearItems& fluid,
+               const CloseGroup& close, std::vector<std::uint32_t>& buffer, const Particles<3>& particles,
+               const NearGroup& boundary, const BoundaryParticles<3>& walls, ForceLanes<3>& lanes) {
+  forces<3>(model, group, fluid, close, buffer, particles, boundary, walls, lanes);
 }
 void reactions_2d(const LaneModel<2>& model, const NodeLanes<2>& group, const NearGroup& fluid,
                   const Particles<2>& particles, ReactionLanes<2>& lanes) {
-  reactions<2>(model, group, fluid, particles, lanes);
+  if (particles.source.empty())
+    reactions<2, true>(model, group, fluid, particles, lanes);
+  else
+    reactions<2, false>(model, group, fluid, particles, lanes);
 }
 void reactions_3d(const LaneModel<3>& model, const NodeLanes<3>& group, const NearGroup& fluid,
                   const Particles<3>& particles, ReactionLanes<3>& lanes) {
-  reactions<3>(model, group, fluid, particles, lanes);
+  if (particles.source.empty())
+    reactions<3, true>(model, group, fluid, particles, lanes);
+  else
+    reactions<3, false>(model, group, fluid, particles, lanes);
 }
 
 }  // namespace sluice::fluid::HWY_NAMESPACE
@@ -243,16 +328,16 @@ HWY_EXPORT(reactions_2d);
 HWY_EXPORT(reactions_3d);
 
 template <>
-void gather_forces(const LaneModel<2>& model, const NodeLanes<2>& group, const NearGroup& fluid,
-                   const CloseGroup& close, const Particles<2>& particles, const NearGroup& boundary,
-                   const BoundaryParticles<2>& walls, ForceLanes<2>& lanes) {
-  HWY_DYNAMIC_DISPATCH(forces_2d)(model, group, fluid, close, particles, boundary, walls, lanes);
+void gather_forces(const LaneModel<2>& model, const NodeLanes<2>& group, const NearItems& fluid,
+                   const CloseGroup& close, std::vector<std::uint32_t>& buffer, const Particles<2>& particles,
+                   const NearGroup& boundary, const BoundaryParticles<2>& walls, ForceLanes<2>& lanes) {
+  HWY_DYNAMIC_DISPATCH(forces_2d)(model, group, fluid, close, buffer, particles, boundary, walls, lanes);
 }
 template <>
-void gather_forces(const LaneModel<3>& model, const NodeLanes<3>& group, const NearGroup& fluid,
-                   const CloseGroup& close, const Particles<3>& particles, const NearGroup& boundary,
-                   const BoundaryParticles<3>& walls, ForceLanes<3>& lanes) {
-  HWY_DYNAMIC_DISPATCH(forces_3d)(model, group, fluid, close, particles, boundary, walls, lanes);
+void gather_forces(const LaneModel<3>& model, const NodeLanes<3>& group, const NearItems& fluid,
+                   const CloseGroup& close, std::vector<std::uint32_t>& buffer, const Particles<3>& particles,
+                   const NearGroup& boundary, const BoundaryParticles<3>& walls, ForceLanes<3>& lanes) {
+  HWY_DYNAMIC_DISPATCH(forces_3d)(model, group, fluid, close, buffer, particles, boundary, walls, lanes);
 }
 template <>
 void gather_reaction(const LaneModel<2>& model, const NodeLanes<2>& group, const NearGroup& fluid,

@@ -114,12 +114,12 @@ class ForceSweep {
     //   alpha h c0 rho0 V_i V_k [v_ki . x_ki - x_ki . (d_i + d_k)/2 x_ki] / r^2 F x_ki
     const double VF = k.volume * F;
     const double unexplained =
-        (node_.v - k.v).dot(x_ik) - 0.5 * x_ik.dot((flow_.strain + flow.strain) * x_ik);
+        (node_.v - k.v).dot(x_ik) - x_ik.dot((flow_.half_strain + flow.half_strain) * x_ik);
     viscous_ -= VF * unexplained / (r2 + model_.tiny_r2) * x_ik;
 
     // Density diffusion on what a linear density field does not explain (M. Antuono et al., Comput. Phys.
     // Commun. 181, 2010, eq. 6): 2 delta h c0 sum_k V_k F [rho_ki - (grad rho_i + grad rho_k)/2 . x_ki]
-    diffusion_ += VF * (k.rho - node_.rho + 0.5 * (flow_.grad_rho + flow.grad_rho).dot(x_ik));
+    diffusion_ += VF * (k.rho - node_.rho + (flow_.half_grad_rho + flow.half_grad_rho).dot(x_ik));
   }
 
   const Model<Dim, Kernel>& model_;

@@ -50,24 +50,35 @@ double GalerkinSolver<Dim, Kernel>::quadrature_volume(std::size_t i) const {
   return weights_ == Weights::kernel ? fluid_.mass[i] / node.rho : node.volume;
 }
 
-// CF (60), (64). The volumes stay those of sweep 1, so that sum grad N = 0 holds for the forces too.
+// CF (64), and what sweep 2 takes of the stress. The volumes stay those of sweep 1, so that sum grad N = 0
+// holds for the forces too.
 template <int Dim, typename Kernel>
 void GalerkinSolver<Dim, Kernel>::set_stress(std::size_t i) {
-  using Rule = Operator<Dim, Kernel>;
   fluid_.pressure[i] = model_.eos.pressure(fluid_.node[i].rho);
+  if (fluid_.source.empty())
+    fluid_.gradients[i].V_sigma = -quadrature_volume(i) * fluid_.pressure[i];
+  else
+    set_source(i);
+}
+
+// CF (60).
+template <int Dim, typename Kernel>
+void GalerkinSolver<Dim, Kernel>::set_source(std::size_t i) {
+  using Rule = Operator<Dim, Kernel>;
   if constexpr (Rule::kIsDefault)
     if (fluid_.stress.empty())
-      return set_source<Dim>(-quadrature_volume(i) * fluid_.pressure[i], fluid_.fit[i], fluid_.source[i]);
+      return fluid::set_source<Dim>(-quadrature_volume(i) * fluid_.pressure[i], fluid_.fit[i],
+                                    fluid_.source[i]);
   Mat<Dim> sigma = -fluid_.pressure[i] * Mat<Dim>::Identity();
   if constexpr (Rule::kIsIsobaric) sigma.setZero();
   if (!fluid_.stress.empty() && !fluid_.has_several_liquids()) {
     // Where G is not the exact inverse, a shear stress would exert a moment: spray has none.
-    fluid_.stress[i] =
-        fluid_.fit[i].floored ? Mat<Dim>::Zero() : viscous_stress<Dim>(model_.mu, fluid_.gradients[i].strain);
+    fluid_.stress[i] = fluid_.fit[i].floored ? Mat<Dim>::Zero()
+                                             : viscous_stress<Dim>(model_.mu, fluid_.gradients[i].strain());
     sigma += fluid_.stress[i];
   }
   if constexpr (Rule::kIsDefault)
-    set_source<Dim>(quadrature_volume(i), sigma, fluid_.fit[i], fluid_.source[i]);
+    fluid::set_source<Dim>(quadrature_volume(i), sigma, fluid_.fit[i], fluid_.source[i]);
   else if constexpr (Rule::kHasPoints)
     Rule::set_source(model_.eos, quadrature_volume(i), sigma, coefficients_[i], fluid_, i);
   else

@@ -23,8 +23,8 @@ void GalerkinSolver<Dim, Kernel>::compute_gradients() {
   if (Operator<Dim, Kernel>::kIsDefault && !bodies_.empty() && !boundary_forces_.is_used()) find_films();
   if (!boundary_.sticks()) return;
   parallel_.for_each(fluid_.size(), [&](std::size_t i) {
-    fluid_.gradients[i].strain +=
-        sticking_strain<Dim>(model_, fluid_, i, search_.boundary_near_fluid(i), boundary_);
+    fluid_.gradients[i].half_strain +=
+        0.5 * sticking_strain<Dim>(model_, fluid_, i, search_.boundary_near_fluid(i), boundary_);
   });
 }
 
@@ -38,9 +38,8 @@ void GalerkinSolver<Dim, Kernel>::compute_single_gradients() {
     const auto gradients = sweep.finish();
     if constexpr (!Operator<Dim, Kernel>::kIsDefault) coefficients_[i] = gradients.coefficients;
     fluid_.fit[i] = gradients.fit;
-    fluid_.gradients[i].grad_rho = gradients.grad_rho;
     fluid_.divergence[i] = gradients.L.trace();
-    fluid_.gradients[i].strain = strain_rate<Dim>(gradients.L);
+    fluid_.gradients[i].set(gradients.grad_rho, strain_rate<Dim>(gradients.L));
   });
 }
 

@@ -44,8 +44,7 @@ void GalerkinSolver<Dim, Kernel>::separate_at_interface(std::size_t i) {
   GradientSweep<Dim, Kernel> sweep(model_, node);
   sweep.gather(own, fluid_.node);
   const Gradients<Dim> gradients = sweep.finish();
-  fluid_.gradients[i].strain = strain_rate<Dim>(gradients.L);
-  fluid_.gradients[i].grad_rho = gradients.grad_rho;
+  fluid_.gradients[i].set(gradients.grad_rho, strain_rate<Dim>(gradients.L));
   fluid_.own[i].fit = gradients.fit;
 }
 
@@ -58,7 +57,8 @@ void GalerkinSolver<Dim, Kernel>::compute_own_stress() {
     const Fit<Dim>& fit = own.is_at_interface ? own.fit : fluid_.fit[i];
     Mat<Dim>& stress = fluid_.stress[i];
     stress.setZero();
-    if (!fit.floored) stress = viscous_stress<Dim>(fluid_.liquid_of(i).viscosity, fluid_.gradients[i].strain);
+    if (!fit.floored)
+      stress = viscous_stress<Dim>(fluid_.liquid_of(i).viscosity, fluid_.gradients[i].strain());
     const Vec<Dim> s = fluid_.node[i].volume * (stress * fit.g);
     const Mat<Dim> S = fluid_.node[i].volume * (stress * fit.G);
     own.s.setZero();

@@ -46,8 +46,16 @@ double reach(const Setup& setup, const Model<Dim, Kernel>& model) {
          BackgroundCells<Dim>::extra_reach(setup.formulation, setup.spacing);
 }
 
+// Whether pressure is all the stress that there is, in sweeps that can do with that.
+template <int Dim, typename Kernel>
+bool is_isotropic(const Setup& setup) {
+  return goes_by_groups<Dim, Kernel>(setup) && !setup.has_viscous_stress() &&
+         setup.liquid.surface_tension == 0.0 && setup.formulation.quadrature == Quadrature::nodal &&
+         setup.openings.empty();
+}
+
 template <int Dim>
-Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos) {
+Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos, bool isotropic) {
   const FluidParticles& given = setup.fluid;
   const std::size_t n = given.position.size();
   Particles<Dim> fluid;
@@ -74,7 +82,7 @@ Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos) {
   const std::size_t in_use = std::max<std::size_t>(n, 1);
   if (setup.has_viscous_stress()) fluid.stress.assign(in_use, Mat<Dim>::Zero());
   fluid.fit.resize(n);
-  fluid.source.resize(n);
+  if (!isotropic) fluid.source.resize(in_use);
   fluid.gradients.resize(n);
   if (setup.formulation.approximation == Approximation::mls_full_derivative)
     fluid.slope_source.resize(in_use);
@@ -97,7 +105,7 @@ template <int Dim, typename Kernel>
 GalerkinSolver<Dim, Kernel>::GalerkinSolver(const Setup& setup)
     : model_(setup),
       parallel_(setup.threads),
-      fluid_(stages::make_particles<Dim>(setup, model_.eos)),
+      fluid_(stages::make_particles<Dim>(setup, model_.eos, stages::is_isotropic<Dim, Kernel>(setup))),
       images_(setup),
       boundary_(setup, images_.with_images(setup.bodies)),
       search_(stages::reach(setup, model_), stages::kSkin * model_.kernel.support(), setup.period,

@@ -91,6 +91,7 @@ class GalerkinSolver final : public Solver {
   [[nodiscard]] double quadrature_volume(std::size_t i) const;
   void compute_stress();
   void set_stress(std::size_t i);
+  void set_source(std::size_t i);
   void complete_stress();
   void extrapolate_to_boundary();
   void return_forces();

@@ -77,40 +77,52 @@ struct GradientSums {
   }
 };
 
-// V W of the neighbours `first` and on, kChunk of them, as many as there are. With kClose what is close is
-// written to `close`, and V W of that alone: everything is written, and kept where it counts. A branch there
-// would be guessed wrong once in five.
+// V W of the neighbours `first` and on, kChunk of them, as many as there are. With kClose those that are
+// close go to `close`, and V W of them alone: everything is written, and kept where it counts. A branch there
+// would be guessed wrong once in five. A bit each of `which` says which those are.
 template <int Dim, bool kMasked, bool kClose>
 HWY_INLINE std::size_t weigh(const Wendland& kernel, const Vecs<Dim>& x, std::size_t turn,
-                             const NearNodes<Dim>& near, std::size_t first, std::uint32_t* close, V* VW) {
+                             const NearNodes<Dim>& near, std::size_t first, std::uint32_t* close, V* VW,
+                             std::uint64_t* which) {
   const std::size_t count = std::min(kChunk, near.near.index.size() - first);
   std::size_t kept = 0;
-  for (std::size_t k = first; k < first + count; ++k) {
-    const Node<Dim>& j = near.node[near.near.index[k]];
+  std::uint64_t bits = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t index = near.near.index[first + k];
+    const Node<Dim>& j = near.node[index];
     const V d = kernel.from_edge(distance2(x, j));
     VW[kept] = set(j.volume) * kernel.value_at(d);
-    if constexpr (kMasked) VW[kept] = hn::IfThenElseZero(lanes_of(near.near.lanes, k, turn), VW[kept]);
-    if constexpr (kClose) close[kept] = near.near.index[k];
-    kept += kClose && hn::AllFalse(D(), hn::Gt(d, hn::Zero(D()))) ? 0 : 1;
+    if constexpr (kMasked)
+      VW[kept] = hn::IfThenElseZero(lanes_of(near.near.lanes, first + k, turn), VW[kept]);
+    if constexpr (kClose) {
+      const std::uint64_t is_close = hn::AllFalse(D(), hn::Gt(d, hn::Zero(D()))) ? 0 : 1;
+      close[kept] = index;
+      bits |= is_close << k;
+      kept += is_close;
+    } else {
+      ++kept;
+    }
   }
+  if constexpr (kClose) *which = bits;
   return kept;
 }
 
-// Writes what is close to `close` with kClose, and returns where that ends.
+// With kClose, `which` of the neighbours are close is written, a word a chunk.
 template <int Dim, bool kMasked, bool kClose>
-HWY_INLINE std::uint32_t* gather(const Wendland& kernel, const NodeLanes<Dim>& group, std::size_t turn,
-                                 const NearNodes<Dim>& near, std::uint32_t* close, GradientSums<Dim>& sums) {
+HWY_INLINE void gather(const Wendland& kernel, const NodeLanes<Dim>& group, std::size_t turn,
+                       const NearNodes<Dim>& near, std::uint64_t* which, GradientSums<Dim>& sums) {
+  static_assert(kChunk == CloseGroup::kWord);
   const Vecs<Dim> x = load(group.x, turn);
   GradientSums<Dim> s = sums;
   V VW[kChunk];
+  std::uint32_t close[kChunk];
   for (std::size_t first = 0; first < near.near.index.size(); first += kChunk) {
-    const std::size_t count = weigh<Dim, kMasked, kClose>(kernel, x, turn, near, first, close, VW);
+    const std::size_t count = weigh<Dim, kMasked, kClose>(kernel, x, turn, near, first, close, VW, which);
     const std::uint32_t* index = kClose ? close : near.near.index.data() + first;
     for (std::size_t k = 0; k < count; ++k) s.add(near.node[index[k]], x, VW[k]);
-    if constexpr (kClose) close += count;
+    if constexpr (kClose) ++which;
   }
   sums = s;
-  return close;
 }
 
 template <int Dim>
@@ -170,26 +182,27 @@ template <int Dim>
 HWY_INLINE void finish_gradients(const GradientSums<Dim>& s, const Vecs<Dim>& g,
                                  const Vecs<Dim*(Dim + 1) / 2>& G, std::size_t turn,
                                  GradientLanes<Dim>& out) {
+  const V half = set(0.5), quarter = set(0.25);
   Vecs<Dim> grad_rho = times<Dim>(G, s.q);
   Vecs<Dim * Dim> L;
   SLUICE_UNROLL
   for (int a = 0; a < Dim; ++a) {
-    grad_rho[a] = hn::MulAdd(s.p, g[a], grad_rho[a]);
+    grad_rho[a] = half * hn::MulAdd(s.p, g[a], grad_rho[a]);
     Vecs<Dim> row;
     for (int b = 0; b < Dim; ++b) row[b] = s.Q[a * Dim + b];
     const Vecs<Dim> QG = times<Dim>(G, row);
     for (int b = 0; b < Dim; ++b) L[a * Dim + b] = hn::MulAdd(s.P[a], g[b], QG[b]);
   }
-  store(grad_rho, out.grad_rho, turn);
+  store(grad_rho, out.half_grad_rho, turn);
   Vecs<Dim*(Dim + 1) / 2> strain;
   V divergence = L[0];
   SLUICE_UNROLL
   for (int a = 0; a < Dim; ++a) {
     if (a > 0) divergence = divergence + L[a * Dim + a];
-    strain[sym<Dim>(a, a)] = L[a * Dim + a];
-    for (int b = a + 1; b < Dim; ++b) strain[sym<Dim>(a, b)] = set(0.5) * (L[a * Dim + b] + L[b * Dim + a]);
+    strain[sym<Dim>(a, a)] = half * L[a * Dim + a];
+    for (int b = a + 1; b < Dim; ++b) strain[sym<Dim>(a, b)] = quarter * (L[a * Dim + b] + L[b * Dim + a]);
   }
-  store(strain, out.strain, turn);
+  store(strain, out.half_strain, turn);
   store(divergence, out.divergence, turn);
 }
 
@@ -235,9 +248,8 @@ HWY_INLINE void gather_all(const LaneModel<Dim>& model, const NodeLanes<Dim>& gr
   for (std::size_t turn = 0; turn < kGroup; turn += kLanes) {
     GradientSums<Dim> sums;
     sums.clear();
-    const std::size_t vector = turn / kLanes;
     if (fluid.near.lanes == nullptr)
-      close.end_at(gather<Dim, false, true>(kernel, group, turn, fluid, close.begin(vector), sums), vector);
+      gather<Dim, false, true>(kernel, group, turn, fluid, close.of(turn / kLanes), sums);
     else
       gather<Dim, true, false>(kernel, group, turn, fluid, nullptr, sums);
     gather<Dim>(kernel, group, turn, boundary, sums);

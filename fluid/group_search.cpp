@@ -1,5 +1,8 @@
 #include "fluid/group_search.hpp"
 
+#include <stdexcept>
+#include <string>
+
 #include "fluid/lanes.hpp"
 
 namespace sluice::fluid {
@@ -37,11 +40,8 @@ std::uint8_t lanes_where(std::size_t group, std::size_t count, const Yes& yes) {
 // What a list has for one particle of a group.
 std::span<const std::uint32_t> of_particle(const GroupList& list, std::size_t i,
                                            std::vector<std::uint32_t>& buffer) {
-  const NearGroup near = list.of(i / kGroup);
-  if (near.lanes == nullptr) return near.index;
   buffer.clear();
-  for (std::size_t n = 0; n < near.index.size(); ++n)
-    if (near.lanes[n] >> i % kGroup & 1) buffer.push_back(near.index[n]);
+  list.of(i / kGroup).for_each_of(i % kGroup, [&](std::uint32_t k) { buffer.push_back(k); });
   return buffer;
 }
 
@@ -51,15 +51,18 @@ template <int Dim>
 void GroupSearch<Dim>::rebuild(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
                                const SearchGrids<Dim>& grids, const Visibility<Dim>& visibility, double reach,
                                const Parallel& parallel) {
+  if (std::max(fluid.node.size(), boundary.size()) > kMostItems)
+    throw std::length_error("more than " + std::to_string(kMostItems) +
+                            " particles with their images; a coarser spacing has fewer");
   const auto fluid_count = static_cast<std::uint32_t>(fluid.size());
-  const auto append_fluid = [&](const Surroundings<Dim>& near, std::vector<std::uint32_t>& index) {
-    const auto append_row = [&](std::uint32_t first, std::uint32_t last) {
-      append_near<Dim>(near.x, reach, fluid.node.data(), first, last, nullptr, index);
+  const auto add_fluid = [&](const Surroundings<Dim>& near, std::vector<Members>& members) {
+    const auto add_row = [&](std::uint32_t first, std::uint32_t last) {
+      add_near<Dim>(near.x, reach, fluid.node.data(), first, last, members);
     };
-    grids.fluid.for_rows_in(near.low, near.high, append_row);
+    grids.fluid.for_rows_in(near.low, near.high, add_row);
     if (!grids.has_images) return;
     grids.images.for_rows_in(near.low, near.high, [&](std::uint32_t first, std::uint32_t last) {
-      append_row(fluid_count + first, fluid_count + last);
+      add_row(fluid_count + first, fluid_count + last);
     });
   };
   const auto near_plate = [&](std::size_t group) {
@@ -68,8 +71,8 @@ void GroupSearch<Dim>::rebuild(const Particles<Dim>& fluid, const BoundaryPartic
 
   fluid_.build(
       group_count(fluid.size()), parallel,
-      [&](std::size_t group, std::vector<std::uint32_t>& index) {
-        append_fluid(Surroundings<Dim>(fluid.node, fluid.size(), group, reach), index);
+      [&](std::size_t group, std::vector<Members>& members) {
+        add_fluid(Surroundings<Dim>(fluid.node, fluid.size(), group, reach), members);
       },
       near_plate,
       [&](std::size_t group, std::uint32_t j) {
@@ -79,11 +82,11 @@ void GroupSearch<Dim>::rebuild(const Particles<Dim>& fluid, const BoundaryPartic
 
   boundary_.build(
       group_count(fluid.size()), parallel,
-      [&](std::size_t group, std::vector<std::uint32_t>& index) {
+      [&](std::size_t group, std::vector<Members>& members) {
         const Surroundings<Dim> near(fluid.node, fluid.size(), group, reach);
         grids.boundary.for_rows_in(near.low, near.high, [&](std::uint32_t first, std::uint32_t last) {
-          append_near<Dim>(near.x, reach, boundary.node().data(), first, last, grids.boundary.item().data(),
-                           index);
+          add_near<Dim>(near.x, reach, boundary.node().data(),
+                        std::span(grids.boundary.item()).subspan(first, last - first), members);
         });
       },
       near_plate,
@@ -94,8 +97,8 @@ void GroupSearch<Dim>::rebuild(const Particles<Dim>& fluid, const BoundaryPartic
 
   of_boundary_.build(
       group_count(boundary.size()), parallel,
-      [&](std::size_t group, std::vector<std::uint32_t>& index) {
-        append_fluid(Surroundings<Dim>(boundary.node(), boundary.size(), group, reach), index);
+      [&](std::size_t group, std::vector<Members>& members) {
+        add_fluid(Surroundings<Dim>(boundary.node(), boundary.size(), group, reach), members);
       },
       [&](std::size_t group) {
         return lanes_where(group, boundary.size(), [&](std::size_t w) { return boundary.plate(w) >= 0; }) !=
@@ -107,7 +110,7 @@ void GroupSearch<Dim>::rebuild(const Particles<Dim>& fluid, const BoundaryPartic
       });
   active_.clear();
   for (std::size_t group = 0; group < of_boundary_.size(); ++group)
-    if (!of_boundary_.of(group).index.empty()) active_.push_back(static_cast<std::uint32_t>(group));
+    if (of_boundary_.of(group).count > 0) active_.push_back(static_cast<std::uint32_t>(group));
 }
 
 template <int Dim>

@@ -26,27 +26,27 @@ struct SearchGrids {
 template <int Dim>
 class GroupSearch {
  public:
-  // Finds what is within `reach` [m].
+  // Finds what is within `reach` [m]. Throws std::length_error for more particles than kMostItems.
   void rebuild(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
                const SearchGrids<Dim>& grids, const Visibility<Dim>& visibility, double reach,
                const Parallel& parallel);
 
   // Fluid near every group of fluid, its own particles among it.
   [[nodiscard]] const GroupList& fluid_near_fluid() const { return fluid_; }
-  [[nodiscard]] NearGroup boundary_near_fluid(std::size_t group) const { return boundary_.of(group); }
+  // Boundary particles near every group of fluid.
+  [[nodiscard]] const GroupList& boundary_near_fluid() const { return boundary_; }
   // Boundary particles near one fluid particle, and few beyond the reach; `buffer` holds them.
   [[nodiscard]] std::span<const std::uint32_t> boundary_near_particle(
       std::size_t i, std::vector<std::uint32_t>& buffer) const;
   // Calls visit(k) for fluid near one fluid particle, itself among it, and for some beyond the reach.
   template <typename Visit>
   void for_fluid_near_particle(std::size_t i, const Visit& visit) const {
-    const NearGroup near = fluid_.of(i / kGroup);
-    for (std::size_t n = 0; n < near.index.size(); ++n)
-      if (near.lanes == nullptr || near.lanes[n] >> i % kGroup & 1) visit(near.index[n]);
+    fluid_.of(i / kGroup).for_each_of(i % kGroup, visit);
   }
   // Groups of boundary particles that have fluid near.
   [[nodiscard]] const std::vector<std::uint32_t>& active_boundary() const { return active_; }
-  [[nodiscard]] NearGroup fluid_near_boundary(std::size_t group) const { return of_boundary_.of(group); }
+  // Fluid near every group of boundary particles.
+  [[nodiscard]] const GroupList& fluid_near_boundary() const { return of_boundary_; }
   // Fluid near one boundary particle, and some beyond the reach; `buffer` holds it.
   [[nodiscard]] std::span<const std::uint32_t> fluid_near_boundary_particle(
       std::size_t w, std::vector<std::uint32_t>& buffer) const;
@@ -55,10 +55,11 @@ class GroupSearch {
   template <typename Visit>
   void for_boundary_pairs(std::size_t count, const Visit& visit) const {
     for (const std::uint32_t group : active_) {
-      const NearGroup near = of_boundary_.of(group);
-      for (std::size_t n = 0; n < near.index.size(); ++n)
+      const NearItems near = of_boundary_.of(group);
+      near.for_each([&](std::size_t n, std::uint32_t i) {
         for (std::size_t l = 0; l < kGroup && group * kGroup + l < count; ++l)
-          if (near.lanes == nullptr || near.lanes[n] >> l & 1) visit(near.index[n], group * kGroup + l);
+          if (near.lanes == nullptr || near.lanes[n] >> l & 1) visit(i, group * kGroup + l);
+      });
     }
   }
 

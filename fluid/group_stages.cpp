@@ -40,10 +40,8 @@ void take(const LaneVec<Dim>& lanes, std::size_t l, Vec<Dim>& v) {
   for (int a = 0; a < Dim; ++a) v[a] = lanes[static_cast<std::size_t>(a)][l];
 }
 template <int Dim>
-void take(const LaneSym<Dim>& lanes, std::size_t l, Mat<Dim>& m) {
-  std::size_t k = 0;
-  for (int a = 0; a < Dim; ++a)
-    for (int b = a; b < Dim; ++b, ++k) m(a, b) = m(b, a) = lanes[k][l];
+void take(const LaneSym<Dim>& lanes, std::size_t l, Symmetric<Dim>& m) {
+  for (std::size_t k = 0; k < Symmetric<Dim>::kEntries; ++k) m[k] = lanes[k][l];
 }
 template <int Dim>
 void put(const Vec<Dim>& v, std::size_t l, LaneVec<Dim>& lanes) {
@@ -62,11 +60,11 @@ void put_body_velocities(const BoundaryParticles<Dim>& boundary, std::size_t gro
 template <int Dim>
 void GroupStages<Dim>::mirror_velocities(const Particles<Dim>& fluid,
                                          BoundaryParticles<Dim>& boundary) const {
-  for_active_groups([&](std::size_t group) {
+  for_boundary_groups(search_.active_boundary(), [&](std::size_t group, const NearGroup& near) {
     FlowLanes<Dim> flow;
     put_body_velocities<Dim>(boundary, group, flow.body_velocity);
-    gather_flow<Dim>(model_, node_lanes(boundary.node(), boundary.size(), group),
-                     {search_.fluid_near_boundary(group), fluid.node.data()}, flow);
+    gather_flow<Dim>(model_, node_lanes(boundary.node(), boundary.size(), group), {near, fluid.node.data()},
+                     flow);
     for (std::size_t w = group * kGroup; w < group_end(group, boundary.size()); ++w) {
       const std::size_t l = w % kGroup;
       const Moments<Dim> moments{flow.m0[l], vec_at<Dim>(flow.m1, l), sym_at<Dim>(flow.m2, l)};
@@ -80,12 +78,13 @@ template <int Dim>
 void GroupStages<Dim>::compute_gradients(const BoundaryParticles<Dim>& boundary,
                                          Particles<Dim>& fluid) const {
   close_.fit(search_.fluid_near_fluid(), vectors_of_group());
-  for_fluid_groups(fluid.size(), [&](std::size_t group) {
+  for_fluid_groups(fluid.size(), [&](std::size_t group, NearBuffers& buffers) {
     GradientLanes<Dim> lanes;
-    gather_gradients<Dim>(model_, node_lanes(fluid.node, fluid.size(), group),
-                          {search_.fluid_near_fluid().of(group), fluid.node.data()},
-                          {search_.boundary_near_fluid(group), boundary.node().data()}, close_.of(group),
-                          lanes);
+    gather_gradients<Dim>(
+        model_, node_lanes(fluid.node, fluid.size(), group),
+        {unpack(search_.fluid_near_fluid().of(group), buffers.fluid), fluid.node.data()},
+        {unpack(search_.boundary_near_fluid().of(group), buffers.boundary), boundary.node().data()},
+        close_.of(group), lanes);
     for (std::size_t i = group * kGroup; i < group_end(group, fluid.size()); ++i) {
       const std::size_t l = i % kGroup;
       Fit<Dim>& fit = fluid.fit[i];
@@ -94,22 +93,21 @@ void GroupStages<Dim>::compute_gradients(const BoundaryParticles<Dim>& boundary,
       take<Dim>(lanes.g, l, fit.g);
       take<Dim>(lanes.G, l, fit.G);
       fluid.divergence[i] = lanes.divergence[l];
-      take<Dim>(lanes.grad_rho, l, fluid.gradients[i].grad_rho);
-      take<Dim>(lanes.strain, l, fluid.gradients[i].strain);
+      take<Dim>(lanes.half_grad_rho, l, fluid.gradients[i].half_grad_rho);
+      take<Dim>(lanes.half_strain, l, fluid.gradients[i].half_strain);
     }
   });
 }
 
 template <int Dim>
 void GroupStages<Dim>::extrapolate(const Particles<Dim>& fluid, BoundaryParticles<Dim>& boundary) const {
-  for_active_groups([&](std::size_t group) {
+  for_boundary_groups(search_.active_boundary(), [&](std::size_t group, const NearGroup& near) {
     StateLanes<Dim> lanes;
     put_body_velocities<Dim>(boundary, group, lanes.body_velocity);
     for (std::size_t l = 0; l < kGroup; ++l)
       put<Dim>(pull_across(model_, boundary, std::min(group * kGroup + l, boundary.size() - 1)), l,
                lanes.pull);
-    gather_state<Dim>(model_, node_lanes(boundary.node(), boundary.size(), group),
-                      search_.fluid_near_boundary(group), fluid, lanes);
+    gather_state<Dim>(model_, node_lanes(boundary.node(), boundary.size(), group), near, fluid, lanes);
     for (std::size_t w = group * kGroup; w < group_end(group, boundary.size()); ++w) {
       const std::size_t l = w % kGroup;
       const Moments<Dim> moments{lanes.m0[l], vec_at<Dim>(lanes.m1, l), sym_at<Dim>(lanes.m2, l)};
@@ -117,10 +115,10 @@ void GroupStages<Dim>::extrapolate(const Particles<Dim>& fluid, BoundaryParticle
       slopes.row(0) = vec_at<Dim>(lanes.px, l);
       slopes.row(1) = vec_at<Dim>(lanes.rhox, l);
       const Eigen::Vector2d sums(lanes.p[l], lanes.rho[l]);
-      NearState<Dim> near{{moments, sums, slopes}, lanes.volume[l], lanes.dynamic[l]};
-      near.g = vec_at<Dim>(lanes.g, l);
-      near.fitted = lanes.fitted[l];
-      take_over(model_, near, w, boundary);
+      NearState<Dim> state{{moments, sums, slopes}, lanes.volume[l], lanes.dynamic[l]};
+      state.g = vec_at<Dim>(lanes.g, l);
+      state.fitted = lanes.fitted[l];
+      take_over(model_, state, w, boundary);
     }
   });
 }
@@ -128,23 +126,23 @@ void GroupStages<Dim>::extrapolate(const Particles<Dim>& fluid, BoundaryParticle
 template <int Dim>
 void GroupStages<Dim>::compute_forces(const BoundaryParticles<Dim>& boundary,
                                       const MirrorGuard<Dim>& mirror_guard, Particles<Dim>& fluid) const {
-  for_fluid_groups(fluid.size(), [&](std::size_t group) {
+  for_fluid_groups(fluid.size(), [&](std::size_t group, NearBuffers& buffers) {
     ForceLanes<Dim> lanes;
     for (std::size_t l = 0; l < kGroup; ++l) {
-      const FlowGradients<Dim>& flow = fluid.gradients[std::min(group * kGroup + l, fluid.size() - 1)];
-      put<Dim>(flow.grad_rho, l, lanes.grad_rho);
-      std::size_t k = 0;
-      for (int a = 0; a < Dim; ++a)
-        for (int b = a; b < Dim; ++b) lanes.strain[k++][l] = flow.strain(a, b);
+      const std::size_t i = std::min(group * kGroup + l, fluid.size() - 1);
+      const FlowGradients<Dim>& flow = fluid.gradients[i];
+      lanes.mass[l] = fluid.mass[i];
+      put<Dim>(flow.half_grad_rho, l, lanes.half_grad_rho);
+      for (std::size_t k = 0; k < Symmetric<Dim>::kEntries; ++k)
+        lanes.half_strain[k][l] = flow.half_strain[k];
     }
     gather_forces<Dim>(model_, node_lanes(fluid.node, fluid.size(), group),
-                       search_.fluid_near_fluid().of(group), close_.of(group), fluid,
-                       search_.boundary_near_fluid(group), boundary, lanes);
+                       search_.fluid_near_fluid().of(group), close_.of(group), buffers.fluid, fluid,
+                       unpack(search_.boundary_near_fluid().of(group), buffers.boundary), boundary, lanes);
     for (std::size_t i = group * kGroup; i < group_end(group, fluid.size()); ++i) {
       const std::size_t l = i % kGroup;
       for (int a = 0; a < Dim; ++a)
-        fluid.acceleration[i][a] =
-            model_.gravity[a] + lanes.force[static_cast<std::size_t>(a)][l] / fluid.mass[i];
+        fluid.acceleration[i][a] = model_.gravity[a] + lanes.acceleration[static_cast<std::size_t>(a)][l];
       mirror_guard.accelerate(i, fluid);
       fluid.density_rate[i] = lanes.density_rate[l];
     }
@@ -155,23 +153,18 @@ template <int Dim>
 void GroupStages<Dim>::react(const Particles<Dim>& fluid, const BoundaryParticles<Dim>& boundary,
                              const std::vector<std::uint32_t>& groups,
                              std::vector<Reaction<Dim>>& reaction) const {
-  parallel_.for_each(
-      groups.size(),
-      [&](std::size_t a) {
-        const std::size_t group = groups[a];
-        ReactionLanes<Dim> lanes;
-        for (std::size_t l = 0; l < kGroup; ++l) {
-          const std::size_t w = std::min(group * kGroup + l, boundary.size() - 1);
-          lanes.pressure_volume[l] = boundary.pressure[w] * boundary.sampled_volume(w);
-        }
-        gather_reaction<Dim>(model_, node_lanes(boundary.node(), boundary.size(), group),
-                             search_.fluid_near_boundary(group), fluid, lanes);
-        for (std::size_t w = group * kGroup; w < group_end(group, boundary.size()); ++w) {
-          reaction[w].force = vec_at<Dim>(lanes.force, w % kGroup);
-          react_to_returned<Dim>(boundary, w, reaction[w]);
-        }
-      },
-      GroupList::kBlock);
+  for_boundary_groups(groups, [&](std::size_t group, const NearGroup& near) {
+    ReactionLanes<Dim> lanes;
+    for (std::size_t l = 0; l < kGroup; ++l) {
+      const std::size_t w = std::min(group * kGroup + l, boundary.size() - 1);
+      lanes.pressure_volume[l] = boundary.pressure[w] * boundary.sampled_volume(w);
+    }
+    gather_reaction<Dim>(model_, node_lanes(boundary.node(), boundary.size(), group), near, fluid, lanes);
+    for (std::size_t w = group * kGroup; w < group_end(group, boundary.size()); ++w) {
+      reaction[w].force = vec_at<Dim>(lanes.force, w % kGroup);
+      react_to_returned<Dim>(boundary, w, reaction[w]);
+    }
+  });
 }
 
 template class GroupStages<2>;

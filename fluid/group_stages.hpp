@@ -11,6 +11,16 @@
 
 namespace sluice::fluid {
 
+// Numbers of what is near a group.
+struct NearBuffers {
+  std::vector<std::uint32_t> fluid, boundary;
+
+  static NearBuffers& of_thread() {
+    thread_local NearBuffers buffers;
+    return buffers;
+  }
+};
+
 // The stages of a step that walk neighbours, on groups of particles: the default operator with Wendland's
 // kernel, which is worth a vectorised version. Of the other stages and formulations see galerkin_stages.hpp.
 template <int Dim>
@@ -35,15 +45,23 @@ class GroupStages {
              const std::vector<std::uint32_t>& groups, std::vector<Reaction<Dim>>& reaction) const;
 
  private:
+  // Calls body(group, buffers).
   template <typename Body>
   void for_fluid_groups(std::size_t particles, const Body& body) const {
-    parallel_.for_each(group_count(particles), body, GroupList::kBlock);
-  }
-  template <typename Body>
-  void for_active_groups(const Body& body) const {
-    const auto& active = search_.active_boundary();
     parallel_.for_each(
-        active.size(), [&](std::size_t a) { body(active[a]); }, GroupList::kBlock);
+        group_count(particles), [&](std::size_t group) { body(group, NearBuffers::of_thread()); },
+        GroupList::kBlock);
+  }
+  // Calls body(group, what fluid is near it) for groups of boundary particles.
+  template <typename Body>
+  void for_boundary_groups(const std::vector<std::uint32_t>& groups, const Body& body) const {
+    parallel_.for_each(
+        groups.size(),
+        [&](std::size_t a) {
+          body(groups[a],
+               unpack(search_.fluid_near_boundary().of(groups[a]), NearBuffers::of_thread().fluid));
+        },
+        GroupList::kBlock);
   }
 
   const LaneModel<Dim>& model_;

@@ -109,11 +109,14 @@ void Halo<Dim>::append(Particles<Dim>& fluid, const std::vector<std::uint32_t>& 
   fluid.node.resize(all);
   fluid.pressure.resize(all);
   fluid.fit.resize(all);
-  fluid.source.resize(all);
   fluid.gradients.resize(all);
-  if (!fluid.stress.empty()) fluid.stress.resize(all);
-  if (!fluid.slope_source.empty()) fluid.slope_source.resize(all);
-  if (!fluid.point_source.empty()) fluid.point_source.resize(Particles<Dim>::kPoints * all);
+  const auto resize_used = [](auto& values, std::size_t count) {
+    if (!values.empty()) values.resize(std::max<std::size_t>(count, 1));
+  };
+  resize_used(fluid.source, all);
+  resize_used(fluid.stress, all);
+  resize_used(fluid.slope_source, all);
+  resize_used(fluid.point_source, Particles<Dim>::kPoints * all);
   if (fluid.has_several_liquids()) {
     fluid.own.resize(all);
     for (const Image& image : image_) fluid.liquid.push_back(fluid.liquid[image.of]);
@@ -148,10 +151,12 @@ void Halo<Dim>::refresh_sources(Particles<Dim>& fluid, const Parallel& parallel)
     fluid.fit[to] = fluid.fit[image.of];
     fluid.fit[to].g = image.vector(fluid.fit[image.of].g);
     fluid.fit[to].G = image.tensor(fluid.fit[image.of].G);
-    const Source<Dim>& source = fluid.source[image.of];
-    fluid.source[to] = {image.vector(source.s), image.tensor(source.S)};
+    if (!fluid.source.empty()) {
+      const Source<Dim>& source = fluid.source[image.of];
+      fluid.source[to] = {image.vector(source.s), image.tensor(source.S)};
+    }
     const FlowGradients<Dim>& flow = fluid.gradients[image.of];
-    fluid.gradients[to] = {image.tensor(flow.strain), image.vector(flow.grad_rho)};
+    fluid.gradients[to] = {image.vector(flow.half_grad_rho), image.tensor(flow.half_strain), flow.V_sigma};
     if (!fluid.stress.empty()) fluid.stress[to] = image.tensor(fluid.stress[image.of]);
     if (fluid.has_several_liquids()) {
       const OwnLiquid<Dim>& own = fluid.own[image.of];

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
+
 #include "fluid/lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -83,8 +85,7 @@ HWY_INLINE V distance2(const Vecs<Dim>& x, const Node<Dim>& j) {
 // Entry of a symmetric matrix held by rows.
 template <int Dim>
 constexpr int sym(int a, int b) {
-  const int row = a < b ? a : b, column = a < b ? b : a;
-  return row * Dim - row * (row - 1) / 2 + column - row;
+  return static_cast<int>(Symmetric<Dim>::place(a, b));
 }
 
 // m x, m symmetric.
@@ -102,6 +103,30 @@ HWY_INLINE Vecs<Dim> times(const Vecs<Dim*(Dim + 1) / 2>& m, const Vecs<Dim>& x)
 HWY_INLINE M lanes_of(const std::uint8_t* lanes, std::size_t item, std::size_t turn) {
   std::uint8_t bits[8] = {static_cast<std::uint8_t>(lanes[item] >> turn)};
   return hn::LoadMaskBits(D(), bits);
+}
+
+// Numbers of items, as many as there can be in a vector.
+using DI = hn::CappedTag<std::uint32_t, kGroup>;
+inline constexpr std::size_t kItems = hn::MaxLanes(DI());
+using DPlace = hn::Rebind<std::uint8_t, DI>;
+
+// Writes those of the eight items from `first` on that have a bit, and returns where they end. By a table:
+// what processors have for this takes most of them longer.
+HWY_INLINE std::uint32_t* write_members(std::uint32_t first, unsigned bits, std::uint32_t* to) {
+  for (std::size_t turn = 0; turn < kGroup; turn += kItems) {
+    const auto place = hn::PromoteTo(DI(), hn::LoadU(DPlace(), kPlaces[bits].data() + turn));
+    hn::StoreU(hn::Add(hn::Set(DI(), first), place), DI(), to + turn);
+  }
+  return to + std::popcount(bits);
+}
+
+// All that is near.
+HWY_INLINE std::span<const std::uint32_t> write_all(const NearItems& near,
+                                                    std::vector<std::uint32_t>& buffer) {
+  if (buffer.size() < near.count + kRoomBeyond) buffer.resize(near.count + kRoomBeyond);
+  std::uint32_t* to = buffer.data();
+  for (const Members& some : near.members) to = write_members(some.first(), some.bits(), to);
+  return {buffer.data(), near.count};
 }
 
 // WendlandC2 of kernel.hpp but for its constants, by which the sums are multiplied at their end. With the way

@@ -6,6 +6,9 @@
 // mean; a group's own particles are among its neighbours, where they add what belongs to x = 0.
 
 #include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "fluid/boundary.hpp"
 #include "fluid/close_list.hpp"
@@ -22,16 +25,12 @@ struct alignas(64) Lanes {
   double operator[](std::size_t lane) const { return of[lane]; }
 };
 
-// Symmetric matrices by rows: xx xy yy, or xx xy xz yy yz zz.
-template <int Dim>
-inline constexpr std::size_t kSymmetric = Dim*(Dim + 1) / 2;
-
 template <int Dim>
 using LaneVec = std::array<Lanes, Dim>;
 template <int Dim>
 using LaneMat = std::array<Lanes, Dim * Dim>;  // by rows
 template <int Dim>
-using LaneSym = std::array<Lanes, kSymmetric<Dim>>;
+using LaneSym = std::array<Lanes, Symmetric<Dim>::kEntries>;
 
 // The particles of a group; behind the last one it is repeated.
 template <int Dim>
@@ -59,11 +58,31 @@ NodeLanes<Dim> node_lanes(const std::vector<Node<Dim>>& node, std::size_t count,
 template <int Dim>
 using LaneModel = Model<Dim, WendlandC2<Dim>>;
 
-// Appends to `out` those of the items first .. last-1 of `node` that are within `reach` of a particle of the
-// group: their places, or what `item` has there.
+// Adds to `members` those of first .. last-1, or of `some` in their order, that are within `reach` of a
+// particle of the group.
 template <int Dim>
-void append_near(const LaneVec<Dim>& x, double reach, const Node<Dim>* node, std::uint32_t first,
-                 std::uint32_t last, const std::uint32_t* item, std::vector<std::uint32_t>& out);
+void add_near(const LaneVec<Dim>& x, double reach, const Node<Dim>* node, std::uint32_t first,
+              std::uint32_t last, std::vector<Members>& members);
+template <int Dim>
+void add_near(const LaneVec<Dim>& x, double reach, const Node<Dim>* node, std::span<const std::uint32_t> some,
+              std::vector<Members>& members);
+
+// Numbers of items are written a vector at a time, up to so many beyond their end.
+inline constexpr std::size_t kRoomBeyond = kGroup;
+
+// Of every set of members their places in the group; zeros behind them.
+inline constexpr auto kPlaces = [] {
+  std::array<std::array<std::uint8_t, kGroup>, 1 << kGroup> places{};
+  for (std::size_t bits = 0; bits < places.size(); ++bits) {
+    std::size_t count = 0;
+    for (std::uint8_t place = 0; place < kGroup; ++place)
+      if (bits >> place & 1) places[bits][count++] = place;
+  }
+  return places;
+}();
+
+// The numbers of what is near a group, in `buffer`, with that room.
+NearGroup unpack(const NearItems& near, std::vector<std::uint32_t>& buffer);
 
 // What is near a group, and whose index that is.
 template <int Dim>
@@ -80,27 +99,30 @@ std::size_t vectors_of_group();
 template <int Dim>
 struct GradientLanes {
   Lanes m0, divergence;
-  LaneVec<Dim> g, grad_rho;
-  LaneSym<Dim> G, strain;
+  LaneVec<Dim> g, half_grad_rho;
+  LaneSym<Dim> G, half_strain;
   std::array<bool, kGroup> floored;
 };
 template <int Dim>
 void gather_gradients(const LaneModel<Dim>& model, const NodeLanes<Dim>& group, const NearNodes<Dim>& fluid,
                       const NearNodes<Dim>& boundary, const CloseGroup& close, GradientLanes<Dim>& out);
 
-// Sweep 2, of what is `close` unless lanes are masked: force [N] and density rate, force_sweep.hpp.
+// Sweep 2, of what is `close` unless lanes are masked: acceleration and density rate, force_sweep.hpp.
+// `buffer` is for the numbers of the fluid.
 template <int Dim>
 struct ForceLanes {
   // Of the group:
-  LaneSym<Dim> strain;
-  LaneVec<Dim> grad_rho;
+  Lanes mass;
+  LaneSym<Dim> half_strain;
+  LaneVec<Dim> half_grad_rho;
   // Results:
-  LaneVec<Dim> force;
+  LaneVec<Dim> acceleration;  // without gravity
   Lanes density_rate;
 };
 template <int Dim>
-void gather_forces(const LaneModel<Dim>& model, const NodeLanes<Dim>& group, const NearGroup& fluid,
-                   const CloseGroup& close, const Particles<Dim>& particles, const NearGroup& boundary,
+void gather_forces(const LaneModel<Dim>& model, const NodeLanes<Dim>& group, const NearItems& fluid,
+                   const CloseGroup& close, std::vector<std::uint32_t>& buffer,
+                   const Particles<Dim>& particles, const NearGroup& boundary,
                    const BoundaryParticles<Dim>& walls, ForceLanes<Dim>& lanes);
 
 // What a group of boundary particles takes from the fluid near it. Sums over f of W times

@@ -74,7 +74,7 @@ class LiquidForceSweep {
     if (fluid_.liquid[k] != fluid_.liquid[i_]) return add_other(k, x_ik, r2, VF);
     internal_ += W * (fluid_.own[k].s + fluid_.own[k].S * x_ik);
     pair_ += liquid_.pair_viscosity * damping(k, x_ik, r2, VF);
-    diffusion_ += VF * (node.rho - node_.rho + 0.5 * (flow_.grad_rho + flow.grad_rho).dot(x_ik));
+    diffusion_ += VF * (node.rho - node_.rho + (flow_.half_grad_rho + flow.half_grad_rho).dot(x_ik));
   }
 
   void add_other(std::size_t k, const Vec<Dim>& x_ik, double r2, double VF) {
@@ -87,7 +87,7 @@ class LiquidForceSweep {
   // Of the artificial viscosity, over its coefficient (force_sweep.hpp).
   [[nodiscard]] Vec<Dim> damping(std::size_t k, const Vec<Dim>& x_ik, double r2, double VF) const {
     const double unexplained = (node_.v - fluid_.node[k].v).dot(x_ik) -
-                               0.5 * x_ik.dot((flow_.strain + fluid_.gradients[k].strain) * x_ik);
+                               x_ik.dot((flow_.half_strain + fluid_.gradients[k].half_strain) * x_ik);
     return -node_.volume * VF * unexplained / (r2 + model_.tiny_r2) * x_ik;
   }
 

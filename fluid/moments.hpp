@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fluid/symmetric.hpp"
 #include "fluid/types.hpp"
 
 namespace sluice::fluid {
@@ -30,9 +31,9 @@ struct Moments {
 // sum grad N = 0 and sum x (x) grad N = I, CF (16)-(17).
 template <int Dim>
 struct Fit {
-  double m0;
   Vec<Dim> g;
-  Mat<Dim> G;
+  Symmetric<Dim> G;
+  double m0;
   // Spray: an eigenvalue of C was below the floor, too few neighbours for a linear fit; or wedged.hpp.
   bool floored;
 };
@@ -107,7 +108,7 @@ Fit<Dim> fit(const Moments<Dim>& m, double floor) {
   Fit<Dim> f;
   f.G = floored_inverse<Dim>(C, floor * std::max(1.0, m.m0), f.floored);
   f.m0 = m.m0;
-  f.g = -f.G * m.m1 / m.m0;
+  f.g = f.G * (-m.m1 / m.m0);
   return f;
 }
 

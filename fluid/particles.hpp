@@ -26,11 +26,21 @@ struct Source {
   Mat<Dim> S = Mat<Dim>::Zero();  // V sigma G
 };
 
-// And the linear flow around it, for what goes by that or by what it leaves.
+// And the linear flow around it, for what goes by that or by what it leaves. Halved, since a pair of
+// particles goes by the mean of both.
 template <int Dim>
 struct FlowGradients {
-  Mat<Dim> strain = Mat<Dim>::Zero();    // symmetric part of the velocity gradient [1/s]
-  Vec<Dim> grad_rho = Vec<Dim>::Zero();  // [kg/m^4]
+  Vec<Dim> half_grad_rho = Vec<Dim>::Zero();  // [kg/m^4]
+  Symmetric<Dim> half_strain;                 // of the symmetric part of the velocity gradient [1/s]
+  // In the place of Source, where that is not in use: V sigma of a stress sigma I [Pa m^Dim].
+  double V_sigma = 0;
+
+  [[nodiscard]] Vec<Dim> grad_rho() const { return 2.0 * half_grad_rho; }
+  [[nodiscard]] Mat<Dim> strain() const { return 2.0 * half_strain; }
+  void set(const Vec<Dim>& grad_rho, const Mat<Dim>& strain) {
+    half_grad_rho = 0.5 * grad_rho;
+    half_strain = 0.5 * strain;
+  }
 };
 
 // What MLS with the full derivative leaves in addition (approximation.hpp).
@@ -59,8 +69,8 @@ struct OwnLiquid {
 };
 
 // The state of the fluid, in the order of the last sort. Arrays of size() particles; node, pressure, stress,
-// fit, source, gradients, slope_source and point_source go on with the images beyond periodic and mirrored
-// sides (halo.hpp), and so do liquid and own.
+// fit, source, gradients, slope_source and point_source go on with the images beyond periodic and
+// mirrored sides (halo.hpp), and so do liquid and own.
 template <int Dim>
 struct Particles {
   std::vector<double> mass;            // [kg]
@@ -78,6 +88,7 @@ struct Particles {
   std::vector<double> divergence;  // of the velocity [1/s]
   std::vector<Mat<Dim>> stress;    // sigma + p I, the viscous part [Pa]; empty without viscosity
   std::vector<Fit<Dim>> fit;
+  // Empty where the stress is a pressure alone: FlowGradients::V_sigma.
   std::vector<Source<Dim>> source;
   std::vector<FlowGradients<Dim>> gradients;
   std::vector<SlopeSource<Dim>> slope_source;  // empty but with the full derivative

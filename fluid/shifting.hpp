@@ -67,7 +67,7 @@ void Shifting<Dim>::compute(const Model<Dim, Kernel>& model, const Particles<Dim
         concentration_gradient<Dim>(model, x, neighbors, fluid.node) +
         concentration_gradient<Dim>(model, x, search.boundary_near_fluid(i), boundary.node());
     const Vec<Dim> normal = surface.normal(i, fluid, search);
-    velocity_[i] = -strength_ * model.h * model.h * fluid.gradients[i].strain.norm() *
+    velocity_[i] = -strength_ * model.h * model.h * fluid.gradients[i].strain().norm() *
                    (crowding - crowding.dot(normal) * normal);
   });
 }
@@ -77,7 +77,7 @@ void Shifting<Dim>::apply(double dt, Particles<Dim>& fluid, const Parallel& para
   parallel.for_each(velocity_.size(), [&](std::size_t i) {
     const Vec<Dim> way = dt * velocity_[i];
     fluid.node[i].x += way;
-    fluid.node[i].rho += fluid.gradients[i].grad_rho.dot(way);
+    fluid.node[i].rho += fluid.gradients[i].grad_rho().dot(way);
   });
 }
 

@@ -9,8 +9,8 @@
 namespace sluice::protocol {
 namespace {
 
-// Particles are counted in 32 bits and take some 300 bytes each; cells cover the domain.
-constexpr double kMostParticles = 1e9;
+// The solver tells 2^27 particles apart, images among them, of some 400 bytes each; cells cover the domain.
+constexpr double kMostParticles = 1e8;
 constexpr double kMostDomainSites = 4e9;
 
 // Upper bound of the lattice points in a box with these edges [m]. In floating point: counts that do not fit

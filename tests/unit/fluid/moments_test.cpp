@@ -118,7 +118,7 @@ TEST(Moments, ACrowdOscillatesNoFasterThanTheFloorLets) {
       m.add(kSpacing * kSpacing * kernel.value(x), x);
     }
     EXPECT_GT(m.m0, 1.2);
-    return m.m0 * fit(m, floor).G.operatorNorm();
+    return m.m0 * fit(m, floor).G.full().operatorNorm();
   };
   for (const double size : {0.1, 0.2, 0.4, 0.6}) EXPECT_LE(frequency2(size), (1.0 + 1e-12) / floor) << size;
 }

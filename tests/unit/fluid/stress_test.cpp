@@ -64,7 +64,7 @@ TEST(Stress, DissipatesWhateverTheStrain) {
 TEST(Stress, SourceIsTheStressOnTheFit) {
   std::mt19937_64 random(7);
   const Mat<3> sigma = strain_rate<3>(random_matrix<3>(random));
-  const Fit<3> fit{1.0, random_vector<3>(random), strain_rate<3>(random_matrix<3>(random)), false};
+  const Fit<3> fit{random_vector<3>(random), strain_rate<3>(random_matrix<3>(random)), 1.0, false};
   Source<3> source;
   set_source<3>(0.3, sigma, fit, source);
   EXPECT_LT((source.s - 0.3 * sigma * fit.g).norm(), 1e-15);

@@ -359,7 +359,7 @@ TEST(SceneFault3D, RotationsMustBeRotations) {
 
 TEST(SceneCounts, BeyondAnyIntegerAreRefused) {
   EXPECT_THAT(errors_of(kScene, {"spacing=1e-9"}),
-              HasSubstr("spacing: 1e-09 m makes about 9e+16 fluid particles, at most 1e+09 are supported"));
+              HasSubstr("spacing: 1e-09 m makes about 9e+16 fluid particles, at most 1e+08 are supported"));
   EXPECT_THAT(errors_of(kScene, {"domain.max=[1e9, 1e9]"}), HasSubstr("lattice sites in the domain"));
   EXPECT_THAT(errors_of(kScene, {"body[1].ball.radius=1e10"}), HasSubstr("particles in bodies"));
 }
