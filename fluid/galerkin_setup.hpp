@@ -81,9 +81,8 @@ Particles<Dim> make_particles(const Setup& setup, const EquationOfState& eos, bo
   // An empty array is one that is not in use, and a tank may start without liquid.
   const std::size_t in_use = std::max<std::size_t>(n, 1);
   if (setup.has_viscous_stress()) fluid.stress.assign(in_use, Mat<Dim>::Zero());
-  fluid.fit.resize(n);
-  if (!isotropic) fluid.source.resize(in_use);
-  fluid.gradients.resize(n);
+  // Room for fits, gradients and sources comes with that for images, in the first search.
+  if (!isotropic) fluid.source.resize(1);
   if (setup.formulation.approximation == Approximation::mls_full_derivative)
     fluid.slope_source.resize(in_use);
   if (setup.formulation.quadrature == Quadrature::stress_points)

@@ -106,13 +106,17 @@ void Halo<Dim>::append(Particles<Dim>& fluid, const std::vector<std::uint32_t>& 
   for (const std::uint32_t k : order) sorted.push_back(image_[k]);
   image_.swap(sorted);
   const std::size_t all = fluid.size() + image_.size();
-  fluid.node.resize(all);
-  fluid.pressure.resize(all);
-  fluid.fit.resize(all);
-  fluid.gradients.resize(all);
-  const auto resize_used = [](auto& values, std::size_t count) {
-    if (!values.empty()) values.resize(std::max<std::size_t>(count, 1));
+  const auto resize = [](auto& values, std::size_t count) {
+    if (values.capacity() < count) values.reserve(count + count / 32);
+    values.resize(count);
   };
+  const auto resize_used = [resize](auto& values, std::size_t count) {
+    if (!values.empty()) resize(values, std::max<std::size_t>(count, 1));
+  };
+  resize(fluid.node, all);
+  resize(fluid.pressure, all);
+  resize(fluid.fit, all);
+  resize(fluid.gradients, all);
   resize_used(fluid.source, all);
   resize_used(fluid.stress, all);
   resize_used(fluid.slope_source, all);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -9,8 +10,9 @@ namespace sluice::fluid {
 template <typename T>
 void permute(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
   if (values.empty()) return;
-  std::vector<T> sorted(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = values[order[k]];
+  std::vector<T> sorted;
+  sorted.reserve(std::max(values.capacity(), order.size()));  // images may follow again
+  for (const std::uint32_t k : order) sorted.push_back(values[k]);
   values.swap(sorted);
 }
 
