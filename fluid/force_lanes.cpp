@@ -44,29 +44,17 @@ struct Ahead {
   V d, per_r2;  // from the edge of the support; 1/r^2
 };
 
-// What a fluid particle distributes of its stress, without W: V sigma (g + G x), Source of particles.hpp.
-template <int Dim>
-HWY_INLINE Vecs<Dim> flux_of(const Source<Dim>& from, const Vecs<Dim>& x) {
+// What a fluid particle distributes of its stress, without W: s + S x of Source (particles.hpp), or over V
+// sigma, where that is a number, g + G x of its fit.
+template <int Dim, typename Matrix>
+HWY_INLINE Vecs<Dim> flux_of(const Vec<Dim>& s, const Matrix& S, const Vecs<Dim>& x) {
   Vecs<Dim> flux;
   SLUICE_UNROLL
-  for (int a = 0; a < Dim; ++a) flux[a] = set(from.s[a]);
+  for (int a = 0; a < Dim; ++a) flux[a] = set(s[a]);
   SLUICE_UNROLL
   for (int ab = 0; ab < Dim * Dim; ++ab) {
     const int a = ab / Dim, b = ab % Dim;
-    flux[a] = hn::MulAdd(set(from.S(a, b)), x[b], flux[a]);
-  }
-  return flux;
-}
-// The same over V sigma, where that is a number.
-template <int Dim>
-HWY_INLINE Vecs<Dim> flux_of(const Fit<Dim>& from, const Vecs<Dim>& x) {
-  Vecs<Dim> flux;
-  SLUICE_UNROLL
-  for (int a = 0; a < Dim; ++a) flux[a] = set(from.g[a]);
-  SLUICE_UNROLL
-  for (int ab = 0; ab < Dim * Dim; ++ab) {
-    const int a = ab / Dim, b = ab % Dim;
-    flux[a] = hn::MulAdd(set(from.G(a, b)), x[b], flux[a]);
+    flux[a] = hn::MulAdd(set(S(a, b)), x[b], flux[a]);
   }
   return flux;
 }
@@ -125,10 +113,12 @@ HWY_INLINE void gather_fluid(const LaneModel<Dim>& model, const NodeLanes<Dim>& 
     const V viscous = VF * dot(v_left, x_ik) * per_r2;
     Vecs<Dim> flux;
     if constexpr (kIsotropic) {
-      flux = flux_of<Dim>(particles.fit[near[n]], x_ik);
+      const Fit<Dim>& from = particles.fit[near[n]];
+      flux = flux_of<Dim>(from.g, from.G, x_ik);
       W = W * set(flow.V_sigma);
     } else {
-      flux = flux_of<Dim>(particles.source[near[n]], x_ik);
+      const Source<Dim>& from = particles.source[near[n]];
+      flux = flux_of<Dim>(from.s, from.S, x_ik);
     }
     SLUICE_UNROLL
     for (int a = 0; a < Dim; ++a) {
@@ -270,10 +260,12 @@ HWY_INLINE void reactions(const LaneModel<Dim>& model, const NodeLanes<Dim>& gro
       const V WV = W * set(i.volume);
       Vecs<Dim> flux;
       if constexpr (kIsotropic) {
-        flux = flux_of<Dim>(particles.fit[near.index[n]], x_wi);
+        const Fit<Dim>& from = particles.fit[near.index[n]];
+        flux = flux_of<Dim>(from.g, from.G, x_wi);
         W = W * set(particles.gradients[near.index[n]].V_sigma);
       } else {
-        flux = flux_of<Dim>(particles.source[near.index[n]], x_wi);
+        const Source<Dim>& from = particles.source[near.index[n]];
+        flux = flux_of<Dim>(from.s, from.S, x_wi);
       }
       SLUICE_UNROLL
       for (int a = 0; a < Dim; ++a) {

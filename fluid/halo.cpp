@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fluid/permute.hpp"
+
 namespace sluice::fluid {
 
 template <int Dim>
@@ -102,9 +104,7 @@ bool Halo<Dim>::is_within(const Vec<Dim>& x, double reach) const {
 
 template <int Dim>
 void Halo<Dim>::append(Particles<Dim>& fluid, const std::vector<std::uint32_t>& order) {
-  std::vector<Image> sorted;
-  for (const std::uint32_t k : order) sorted.push_back(image_[k]);
-  image_.swap(sorted);
+  permute(image_, order);
   const std::size_t all = fluid.size() + image_.size();
   const auto resize = [](auto& values, std::size_t count) {
     if (values.capacity() < count) values.reserve(count + count / 32);

@@ -37,6 +37,9 @@ void expect_floored(const std::vector<Neighbor<Dim>>& neighbors) {
   const Vec<Dim> eigenvalues = smallest_first_eigenvalues<Dim>(f.G);
   EXPECT_GT(eigenvalues[0], 0.0);
   const double floor = kFloor * std::max(1.0, m.m0);
+  bool floored = false;
+  const Mat<Dim> G = floored_inverse<Dim>(C, floor, floored);  // of which the fit keeps a half
+  EXPECT_LT((G - G.transpose()).norm(), 1e-12);
   EXPECT_LE(eigenvalues[Dim - 1], (1.0 + 1e-12) / floor);
   EXPECT_GE(eigenvalues[Dim - 1], (1.0 - 1e-12) / floor);  // it is the floor that binds
 }
